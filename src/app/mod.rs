@@ -1,0 +1,1 @@
+//! The one service layer: use-cases and the ports they need.

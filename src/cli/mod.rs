@@ -1,0 +1,31 @@
+//! The command line: one file a command; each reads its input, calls the library, prints.
+//!
+//! Results go to stdout, progress and errors to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage (clap), 78 refused
+//! by a start-up gate.
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Teach robots by showing effects.
+#[derive(Debug, Parser)]
+#[command(name = "cgda", version, about, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {}
+
+/// Runs the command and turns its error chain into one readable line on stderr.
+#[must_use]
+pub fn main(arguments: &Arguments) -> ExitCode {
+    let result: anyhow::Result<()> = match arguments.command {};
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Evaluators behind the Evaluator port.

@@ -1,0 +1,49 @@
+//! A problem: all an execution needs, self-contained and serialisable, so that a job can be rerun from it alone.
+
+use crate::framework::generalization::Goals;
+use crate::framework::optimizer::MethodSpec;
+use crate::framework::recognition::Metric;
+use crate::framework::robot::RobotSpec;
+use crate::framework::world::WorldSpec;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Goals, robot, world and method of one execution; the seed is given beside it, once for each repetition.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Problem {
+    /// X, the generalized action.
+    pub goals: Goals,
+    /// The robot's URDF, as text.
+    pub urdf: String,
+    /// Which part of the robot moves.
+    pub robot: RobotSpec,
+    /// Where the effects happen.
+    pub world: WorldSpec,
+    /// How to search.
+    pub execution: ExecutionSpec,
+}
+
+/// How an execution searches and when a goal ends.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExecutionSpec {
+    /// The optimiser and its parameters.
+    pub method: MethodSpec,
+    /// How a candidate's discrepancy is measured.
+    #[serde(default)]
+    pub metric: Metric,
+    /// A goal ends when the discrepancy of the whole partial observation is at most this (features' unit).
+    #[serde(default)]
+    pub target_discrepancy: Option<f64>,
+    /// A goal ends when an executed observation is at most this far (Euclidean, features' unit) from the goal.
+    #[serde(default)]
+    pub tolerance: Option<f64>,
+    /// A goal ends after this many evaluations.
+    #[serde(default)]
+    pub max_evaluations_per_goal: Option<u64>,
+    /// Total width of the seeded uniform noise added to each discrepancy (features' unit); 0 is none. The published
+    /// runs' simulator was not exactly repeatable: 1e-13 mm reproduces their stagnation counts.
+    #[serde(default)]
+    pub rounding_noise: f64,
+}

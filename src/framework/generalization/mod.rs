@@ -1,0 +1,5 @@
+//! Generalization: from demonstrations to intermediate goals (paper eq. 1-3).
+
+mod goals;
+
+pub use goals::{Goals, GoalsError};

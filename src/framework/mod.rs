@@ -1,0 +1,21 @@
+//! CGDA itself: demonstrations in, goals, recognition, joint trajectories out.
+//!
+//! # Architecture Invariants
+//! - Pure: no async, no I/O, no clock, no environment, no global random source, no logging.
+//! - SI units and radians inside; *features* keep the unit their demonstration declares.
+//! - Imports nothing else of this crate.
+
+#![warn(missing_docs)]
+
+pub mod demonstration;
+pub mod execution;
+pub mod feature;
+pub mod generalization;
+pub mod job;
+pub mod optimizer;
+pub mod recognition;
+pub mod robot;
+pub mod trajectory;
+pub mod world;
+
+pub use feature::Feature;

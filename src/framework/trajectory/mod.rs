@@ -1,0 +1,1 @@
+//! Trajectories: time parameterisation, check, export.

@@ -1,0 +1,48 @@
+//! World descriptions as users write them (TOML presets, REST); `kind` picks one.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// One of the simulated worlds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum WorldSpec {
+    /// The tool's position is the observation (the paper's wax).
+    ToolPosition(ToolPositionSpec),
+    /// The share of a surface's cells the tool has come near (the paper's paint).
+    Coverage(CoverageSpec),
+}
+
+/// Features x, y, z: the tool centre point in the chain's base frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToolPositionSpec {
+    /// Unit of the features: `m` or `mm`.
+    pub unit: String,
+}
+
+/// Feature `painted`, %: 100 x cells painted / cells. A cell becomes painted when the tool centre point is strictly
+/// nearer than `radius_m` to its centre at a visited static pose, and stays painted until the world is reset.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CoverageSpec {
+    /// Centre of the cell in row 0, column 0; base frame, metres.
+    pub origin_m: [f64; 3],
+    /// From one column to the next, metres.
+    pub column_step_m: [f64; 3],
+    /// From one row to the next, metres.
+    pub row_step_m: [f64; 3],
+    /// Number of columns (at least 1).
+    pub columns: u32,
+    /// Number of rows (at least 1).
+    pub rows: u32,
+    /// Reach of the tool, metres (> 0).
+    pub radius_m: f64,
+    /// Whether the surface can be put back as it was between trials.
+    #[serde(default = "resets_by_default")]
+    pub resets: bool,
+}
+
+fn resets_by_default() -> bool {
+    true
+}

@@ -1,0 +1,1 @@
+//! REST: the router is the URL table; one file a resource.

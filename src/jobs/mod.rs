@@ -1,0 +1,1 @@
+//! The queue runner, one job kind a file.

@@ -1,0 +1,31 @@
+//! `cgda` teaches robots from demonstrations of *effects* (Continuous Goal-Directed Actions) and finds the joint
+//! trajectory with which a given robot produces the same effects (Incrementally Evolved Trajectories).
+//!
+//! # The map
+//! | folder | what lives there | may import |
+//! |---|---|---|
+//! | [`framework`] | CGDA itself: pure science, no I/O | nothing of ours |
+//! | [`app`] | the one service layer: use-cases and ports | `framework` |
+//! | [`store`], [`evaluate`], [`jobs`] | what the ports are plugged into | `app`, `framework` |
+//! | [`http`], [`grpc`] | thin edges: extract, one `app` call, convert | `app`, value types of `framework` |
+//! | [`config`], [`telemetry`], [`lifecycle`], [`cli`] | wiring | everything |
+//!
+//! # Architecture Invariants
+//! - `framework` never reads a clock, a file, the environment or a global random source, and never logs: the same
+//!   input and seed give the same bits, also after kill and resume and on any number of threads.
+//! - `http` and `grpc` never reach `store`, and never each other: a use-case is written once, in `app`.
+//! - SI units and radians inside; a unit stands in every name that crosses a boundary.
+//!
+//! `tests/tidy.rs` enforces these.
+
+pub mod app;
+pub mod cli;
+pub mod config;
+pub mod evaluate;
+pub mod framework;
+pub mod grpc;
+pub mod http;
+pub mod jobs;
+pub mod lifecycle;
+pub mod store;
+pub mod telemetry;

@@ -1,0 +1,1 @@
+//! Start-up gates, signals and orderly shutdown.
