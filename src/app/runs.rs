@@ -1,0 +1,154 @@
+//! Runs: one finished repetition of an execution job each.
+
+use crate::app::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
+use crate::app::trajectories::TrajectoryView;
+use crate::app::{App, AppError, Page, PageQuery, Timestamp};
+use crate::framework::Feature;
+use crate::framework::recognition::Metric;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// One finished repetition.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RunView {
+    /// Its id.
+    pub id: RunId,
+    /// The job it belongs to.
+    pub job: JobId,
+    /// Which repetition, from 0.
+    pub repetition: u32,
+    /// The action executed.
+    pub action: ActionId,
+    /// The robot.
+    pub robot: RobotId,
+    /// The world.
+    pub world: WorldId,
+    /// Method name, for example `sst`.
+    pub method: String,
+    /// How discrepancy was measured.
+    pub metric: Metric,
+    /// Its seed.
+    pub seed: u64,
+    /// Evaluations of all goals.
+    pub evaluations: u64,
+    /// Discrepancy of the whole observation, features' unit.
+    pub discrepancy: f64,
+    /// Share of the surface painted, %, in a world of coverage.
+    pub painted_percent: Option<f64>,
+    /// Number of goals.
+    pub goals: u32,
+    /// SHA-256 of the result's bits, hexadecimal.
+    pub digest: String,
+    /// Its trajectory; absent when none could be made within the limits, which `trajectory_problem` explains.
+    pub trajectory: Option<TrajectoryId>,
+    /// Why there is no trajectory.
+    pub trajectory_problem: Option<String>,
+    /// When it ended.
+    pub created_at: Timestamp,
+}
+
+/// One goal of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RunGoal {
+    /// From 0.
+    pub index: u32,
+    /// Evaluations of this goal.
+    pub evaluations: u64,
+    /// Discrepancy of the observation up to this goal, features' unit.
+    pub discrepancy: f64,
+    /// Why the goal ended.
+    pub stop_reason: String,
+    /// Free joints, rad or m.
+    pub joints: Vec<f64>,
+    /// What was observed there.
+    pub observation: Vec<f64>,
+    /// What was asked for.
+    pub goal: Vec<f64>,
+}
+
+/// All goals of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RunGoals {
+    /// The run.
+    pub run: RunId,
+    /// Features, in the order of `goal` and `observation`.
+    pub features: Vec<Feature>,
+    /// Free joints, in the order of `joints`.
+    pub joint_names: Vec<String>,
+    /// One entry a goal.
+    pub goals: Vec<RunGoal>,
+}
+
+/// Discrepancy against evaluations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Convergence {
+    /// The run.
+    pub run: RunId,
+    /// Points, in the order of evaluations.
+    pub points: Vec<ConvergencePoint>,
+}
+
+/// One point of a convergence curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ConvergencePoint {
+    /// Goal index, from 0.
+    pub goal_index: u32,
+    /// Evaluations since the run began.
+    pub evaluations: u64,
+    /// Best discrepancy of the observation up to this goal.
+    pub discrepancy: f64,
+}
+
+/// Which runs.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct RunFilter {
+    /// Of this job only.
+    pub job: Option<JobId>,
+}
+
+impl App {
+    /// Newest first.
+    ///
+    /// # Errors
+    /// `Malformed` page.
+    pub async fn list_runs(&self, filter: RunFilter, page: PageQuery) -> Result<Page<RunView>, AppError> {
+        let _ = (filter, page);
+        Err(self.unfinished())
+    }
+
+    /// One run.
+    ///
+    /// # Errors
+    /// `NotFound`.
+    pub async fn get_run(&self, id: &RunId) -> Result<RunView, AppError> {
+        let _ = id;
+        Err(self.unfinished())
+    }
+
+    /// Its goals.
+    ///
+    /// # Errors
+    /// `NotFound`.
+    pub async fn run_goals(&self, id: &RunId) -> Result<RunGoals, AppError> {
+        let _ = id;
+        Err(self.unfinished())
+    }
+
+    /// Its convergence, at most `max_points` points.
+    ///
+    /// # Errors
+    /// `NotFound`; `Malformed` number.
+    pub async fn run_convergence(&self, id: &RunId, max_points: Option<u32>) -> Result<Convergence, AppError> {
+        let _ = (id, max_points);
+        Err(self.unfinished())
+    }
+
+    /// Its trajectory.
+    ///
+    /// # Errors
+    /// `NotFound` run, or the run has no trajectory.
+    pub async fn run_trajectory(&self, id: &RunId) -> Result<TrajectoryView, AppError> {
+        let _ = id;
+        Err(self.unfinished())
+    }
+}
