@@ -2,7 +2,25 @@
 //!
 //! Monogram notation: `p_AB_C` is the position of point B measured from A, expressed in frame C (omitted when C = A);
 //! `X_AB` the pose of frame B in A; `B` base, `T` tool. Metres and radians.
+//!
+//! # Architecture Invariants
+//! - [`RobotModel`] and [`Chain`] never change once made; scratch space is a [`Workspace`] of the caller's.
+//! - No position leaves a chain's limits unless a caller gives it: limits are data here, not clamps.
 
+mod chain;
+mod check;
+mod error;
+mod kinematics;
+mod model;
 mod spec;
+#[cfg(test)]
+mod tests;
+mod view;
 
+pub use chain::{Chain, Gene};
+pub use check::{MAX_LINKS, MAX_NODES};
+pub use error::{ChainError, ModelError};
+pub use kinematics::{Workspace, forward_kinematics, jacobian, tool_position};
+pub use model::{Joint, JointKind, Mimic, RobotModel};
 pub use spec::RobotSpec;
+pub use view::{ChainSummary, JointSummary, RobotNote, RobotSummary, summarize, summarize_chain};

@@ -1,10 +1,21 @@
 //! Worlds: what a robot's pose does to the features. Deterministic, simulated, without I/O.
+//!
+//! # Architecture Invariants
+//! - A world's only memory is the prefix of poses committed since its last reset.
+//! - [`World::observe`] changes nothing that can be observed, and allocates nothing.
 
+mod coverage;
+mod error;
 mod spec;
+#[cfg(test)]
+mod tests;
+mod tool_position;
 
+pub use error::WorldError;
 pub use spec::{CoverageSpec, ToolPositionSpec, WorldSpec};
 
 use crate::framework::Feature;
+use crate::framework::robot::Chain;
 
 /// A simulated world that remembers the poses executed since its last reset (the prefix U_1..U_j-1).
 pub trait World: Send {
@@ -20,4 +31,31 @@ pub trait World: Send {
 
     /// As [`World::observe`], and the pose becomes part of the prefix.
     fn commit(&mut self, joints: &[f64], observation: &mut [f64]);
+
+    /// Which cells the prefix has changed, 64 a word, row-major, lowest bit first; none where a world has no cells.
+    fn cells(&self) -> Option<&[u64]> {
+        None
+    }
+}
+
+/// The world `spec` describes, around the robot `chain`.
+///
+/// # Errors
+/// [`WorldError`] with the value and what is allowed.
+pub fn build(spec: &WorldSpec, chain: &Chain) -> Result<Box<dyn World>, WorldError> {
+    Ok(match spec {
+        WorldSpec::ToolPosition(spec) => Box::new(tool_position::ToolPosition::new(spec, chain)?),
+        WorldSpec::Coverage(spec) => Box::new(coverage::Coverage::new(spec, chain)?),
+    })
+}
+
+/// The features a world of that description shows, without building it.
+///
+/// # Errors
+/// [`WorldError`] for an unknown unit.
+pub fn features(spec: &WorldSpec) -> Result<Vec<Feature>, WorldError> {
+    match spec {
+        WorldSpec::ToolPosition(spec) => Ok(tool_position::features(spec)?.to_vec()),
+        WorldSpec::Coverage(_) => Ok(vec![coverage::feature()]),
+    }
 }

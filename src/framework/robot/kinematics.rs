@@ -1,0 +1,113 @@
+//! Kinematics: free functions over an immutable [`Chain`] and a mutable [`Workspace`]; no allocation per call.
+
+use super::chain::{Chain, Step};
+use nalgebra::{Isometry3, Matrix3, Matrix6xX, Rotation3, Translation3, UnitQuaternion, Vector3};
+
+/// Scratch space of one thread for one chain.
+#[derive(Debug, Clone)]
+pub struct Workspace {
+    /// Per step: joint axis and joint origin, both in the base frame.
+    frames: Vec<(Vector3<f64>, Vector3<f64>)>,
+    jacobian: Matrix6xX<f64>,
+}
+
+impl Workspace {
+    /// Space for `chain`.
+    #[must_use]
+    pub fn new(chain: &Chain) -> Self {
+        Self {
+            frames: vec![(Vector3::zeros(), Vector3::zeros()); chain.steps.len()],
+            jacobian: Matrix6xX::zeros(chain.len()),
+        }
+    }
+}
+
+/// `v` rotated by `angle` rad about unit vector `axis`; coordinate axes take the short way.
+#[inline]
+fn rotate(axis: &Vector3<f64>, angle: f64, v: Vector3<f64>) -> Vector3<f64> {
+    let (sin, cos) = angle.sin_cos();
+    let [x, y, z] = [axis.x, axis.y, axis.z];
+    if x == 0.0 && z == 0.0 {
+        let s = y * sin;
+        Vector3::new(cos * v.x + s * v.z, v.y, cos * v.z - s * v.x)
+    } else if y == 0.0 && z == 0.0 {
+        let s = x * sin;
+        Vector3::new(v.x, cos * v.y - s * v.z, s * v.y + cos * v.z)
+    } else if x == 0.0 && y == 0.0 {
+        let s = z * sin;
+        Vector3::new(cos * v.x - s * v.y, s * v.x + cos * v.y, v.z)
+    } else {
+        v * cos + axis.cross(&v) * sin + axis * (axis.dot(&v) * (1.0 - cos))
+    }
+}
+
+#[inline]
+fn joint_position(step: &Step, joints: &[f64]) -> f64 {
+    step.multiplier * joints[step.gene] + step.offset
+}
+
+/// `p_BT`: the tool centre point in the base frame, metres.
+///
+/// `joints`: n free joints in gene order, rad or m. Walks tip to base so that only a point is transformed.
+///
+/// # Panics
+/// If `joints` is shorter than the chain.
+#[must_use]
+pub fn tool_position(chain: &Chain, joints: &[f64]) -> Vector3<f64> {
+    let mut p = chain.tool.translation.vector;
+    for step in chain.steps.iter().rev() {
+        let q = joint_position(step, joints);
+        p = if step.prismatic { p + step.axis * q } else { rotate(&step.axis, q, p) };
+        if !step.unrotated {
+            p = step.rotation * p;
+        }
+        p += step.translation;
+    }
+    p
+}
+
+/// `X_BT`: the tool's pose in the base frame; leaves the joint frames of this pose in `workspace`.
+///
+/// # Panics
+/// If `joints` is shorter than the chain or `workspace` belongs to another chain.
+pub fn forward_kinematics(chain: &Chain, joints: &[f64], workspace: &mut Workspace) -> Isometry3<f64> {
+    let mut rotation = Matrix3::identity();
+    let mut origin = Vector3::zeros();
+    for (step, frame) in chain.steps.iter().zip(&mut workspace.frames) {
+        origin += rotation * step.translation;
+        rotation *= step.rotation;
+        let axis = rotation * step.axis;
+        *frame = (axis, origin);
+        let q = joint_position(step, joints);
+        if step.prismatic {
+            origin += axis * q;
+        } else {
+            rotation *= Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(step.axis), q).into_inner();
+        }
+    }
+    origin += rotation * chain.tool.translation.vector;
+    let orientation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+    Isometry3::from_parts(Translation3::from(origin), orientation * chain.tool.rotation)
+}
+
+/// `J` (6 x n, geometric, base frame): rows 0-2 d`p_BT`/dq (m/rad or m/m), rows 3-5 angular velocity (rad/rad).
+///
+/// # Panics
+/// As [`forward_kinematics`].
+pub fn jacobian<'w>(chain: &Chain, joints: &[f64], workspace: &'w mut Workspace) -> &'w Matrix6xX<f64> {
+    let tool = forward_kinematics(chain, joints, workspace).translation.vector;
+    workspace.jacobian.fill(0.0);
+    for (step, (axis, origin)) in chain.steps.iter().zip(&workspace.frames) {
+        let axis = axis * step.multiplier;
+        let mut column = workspace.jacobian.column_mut(step.gene);
+        let mut linear = column.fixed_rows_mut::<3>(0);
+        if step.prismatic {
+            linear += axis;
+            continue;
+        }
+        linear += axis.cross(&(tool - origin));
+        let mut angular = column.fixed_rows_mut::<3>(3);
+        angular += axis;
+    }
+    &workspace.jacobian
+}

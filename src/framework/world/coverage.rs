@@ -1,0 +1,110 @@
+//! The coverage world (the paper's paint): which cells of a grid the tool has come near.
+
+use super::{CoverageSpec, World, WorldError};
+use crate::framework::Feature;
+use crate::framework::robot::{Chain, tool_position};
+use nalgebra::Vector3;
+
+/// Most cells a surface may have.
+const MAX_CELLS: u64 = 1 << 20;
+
+/// Feature `painted`, %. Cells are bits, row-major.
+#[derive(Debug, Clone)]
+pub(super) struct Coverage {
+    chain: Chain,
+    feature: Feature,
+    centres_m: Vec<Vector3<f64>>,
+    radius_squared: f64,
+    painted: Vec<u64>,
+    count: usize,
+}
+
+/// The feature of a coverage world.
+pub(super) fn feature() -> Feature {
+    Feature::new("painted", "%")
+}
+
+/// Cell centres in the base frame, row-major.
+///
+/// # Errors
+/// [`WorldError`] for a grid that is empty, too large or degenerate.
+pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldError> {
+    let cells = u64::from(spec.columns) * u64::from(spec.rows);
+    if cells == 0 || cells > MAX_CELLS {
+        return Err(WorldError::Cells { columns: spec.columns, rows: spec.rows, cells, limit: MAX_CELLS });
+    }
+    for (field, vector) in
+        [("origin_m", spec.origin_m), ("column_step_m", spec.column_step_m), ("row_step_m", spec.row_step_m)]
+    {
+        if let Some(&value) = vector.iter().find(|v| !v.is_finite()) {
+            return Err(WorldError::NonFinite { field, value });
+        }
+    }
+    for (field, step, count) in
+        [("column_step_m", spec.column_step_m, spec.columns), ("row_step_m", spec.row_step_m, spec.rows)]
+    {
+        if count > 1 && step == [0.0; 3] {
+            return Err(WorldError::ZeroStep { field, count });
+        }
+    }
+    let [origin, column, row] = [spec.origin_m, spec.column_step_m, spec.row_step_m].map(Vector3::from);
+    Ok((0..spec.rows)
+        .flat_map(|r| (0..spec.columns).map(move |c| origin + row * f64::from(r) + column * f64::from(c)))
+        .collect())
+}
+
+impl Coverage {
+    pub(super) fn new(spec: &CoverageSpec, chain: &Chain) -> Result<Self, WorldError> {
+        if !(spec.radius_m.is_finite() && spec.radius_m > 0.0) {
+            return Err(WorldError::Radius { found: spec.radius_m });
+        }
+        let centres_m = centres(spec)?;
+        Ok(Self {
+            chain: chain.clone(),
+            feature: feature(),
+            painted: vec![0; centres_m.len().div_ceil(64)],
+            centres_m,
+            radius_squared: spec.radius_m * spec.radius_m,
+            count: 0,
+        })
+    }
+
+    fn percent(&self, count: usize) -> f64 {
+        100.0 * count as f64 / self.centres_m.len() as f64
+    }
+}
+
+impl World for Coverage {
+    fn features(&self) -> &[Feature] {
+        std::slice::from_ref(&self.feature)
+    }
+
+    fn reset(&mut self) {
+        self.painted.fill(0);
+        self.count = 0;
+    }
+
+    fn observe(&mut self, joints: &[f64], observation: &mut [f64]) {
+        let tool = tool_position(&self.chain, joints);
+        let fresh = self.centres_m.iter().enumerate().filter(|(cell, centre)| {
+            (tool - **centre).norm_squared() < self.radius_squared && self.painted[cell / 64] >> (cell % 64) & 1 == 0
+        });
+        observation[0] = self.percent(self.count + fresh.count());
+    }
+
+    fn commit(&mut self, joints: &[f64], observation: &mut [f64]) {
+        let tool = tool_position(&self.chain, joints);
+        for (cell, centre) in self.centres_m.iter().enumerate() {
+            let bit = 1 << (cell % 64);
+            if (tool - centre).norm_squared() < self.radius_squared && self.painted[cell / 64] & bit == 0 {
+                self.painted[cell / 64] |= bit;
+                self.count += 1;
+            }
+        }
+        observation[0] = self.percent(self.count);
+    }
+
+    fn cells(&self) -> Option<&[u64]> {
+        Some(&self.painted)
+    }
+}

@@ -1,0 +1,46 @@
+//! Why a description is not a world.
+
+/// A world that cannot be built; each variant carries the value and what is allowed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum WorldError {
+    /// An unknown unit.
+    #[error("unit of a tool position is {found:?}: use \"m\" or \"mm\"")]
+    Unit {
+        /// The unit given.
+        found: String,
+    },
+    /// A grid without cells or with too many.
+    #[error("a surface of {columns} columns and {rows} rows has {cells} cells: 1 to {limit} are allowed")]
+    Cells {
+        /// Columns given.
+        columns: u32,
+        /// Rows given.
+        rows: u32,
+        /// Their product.
+        cells: u64,
+        /// Most cells allowed.
+        limit: u64,
+    },
+    /// A tool without reach.
+    #[error("radius_m is {found}: give a finite reach above 0 m")]
+    Radius {
+        /// The radius given.
+        found: f64,
+    },
+    /// A coordinate that is NaN or infinite.
+    #[error("{field} holds {value}: give finite metres")]
+    NonFinite {
+        /// The field.
+        field: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// All cells of a row or column at one place.
+    #[error("{field} is zero for {count} cells: they would lie on one another")]
+    ZeroStep {
+        /// `column_step_m` or `row_step_m`.
+        field: &'static str,
+        /// Number of cells along it.
+        count: u32,
+    },
+}

@@ -1,0 +1,52 @@
+//! The tool-position world (the paper's wax): the observation is where the tool is, whatever was executed before.
+
+use super::{ToolPositionSpec, World, WorldError};
+use crate::framework::Feature;
+use crate::framework::robot::{Chain, tool_position};
+
+/// Features x, y, z of `p_BT` in the chosen unit.
+#[derive(Debug, Clone)]
+pub(super) struct ToolPosition {
+    chain: Chain,
+    features: [Feature; 3],
+    scale: f64,
+}
+
+/// The features of a tool-position world.
+pub(super) fn features(spec: &ToolPositionSpec) -> Result<[Feature; 3], WorldError> {
+    scale(spec)?;
+    Ok(["x", "y", "z"].map(|name| Feature::new(name, spec.unit.as_str())))
+}
+
+fn scale(spec: &ToolPositionSpec) -> Result<f64, WorldError> {
+    match spec.unit.as_str() {
+        "m" => Ok(1.0),
+        "mm" => Ok(1000.0),
+        _ => Err(WorldError::Unit { found: spec.unit.clone() }),
+    }
+}
+
+impl ToolPosition {
+    pub(super) fn new(spec: &ToolPositionSpec, chain: &Chain) -> Result<Self, WorldError> {
+        Ok(Self { chain: chain.clone(), features: features(spec)?, scale: scale(spec)? })
+    }
+}
+
+impl World for ToolPosition {
+    fn features(&self) -> &[Feature] {
+        &self.features
+    }
+
+    fn reset(&mut self) {}
+
+    fn observe(&mut self, joints: &[f64], observation: &mut [f64]) {
+        let p = tool_position(&self.chain, joints);
+        for (value, coordinate) in observation.iter_mut().zip(p.iter()) {
+            *value = coordinate * self.scale;
+        }
+    }
+
+    fn commit(&mut self, joints: &[f64], observation: &mut [f64]) {
+        self.observe(joints, observation);
+    }
+}
