@@ -2,6 +2,9 @@
 
 use crate::framework::Feature;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use utoipa::openapi::{RefOr, Schema};
+use utoipa::{PartialSchema, ToSchema};
 
 /// One recorded stream: k samples of m features with strictly increasing time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -160,14 +163,41 @@ impl Stream {
     pub fn duration_s(&self) -> f64 {
         self.time_s[self.time_s.len() - 1] - self.time_s[0]
     }
+
+    /// The stream with its first sample at 0 s.
+    ///
+    /// # Errors
+    /// [`StreamError::NonIncreasing`] where two times become one by rounding.
+    pub fn starting_at_zero(self) -> Result<Self, StreamError> {
+        let start_s = self.time_s[0];
+        let time_s = self.time_s.iter().map(|t| t - start_s).collect();
+        Self::new(self.name, self.features, time_s, self.values)
+    }
 }
 
-#[derive(Serialize, Deserialize)]
+/// One recorded stream; `values` is row-major, samples x features.
+#[derive(Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
 struct RawStream {
     name: String,
     features: Vec<Feature>,
     time_s: Vec<f64>,
     values: Vec<f64>,
+}
+
+impl PartialSchema for Stream {
+    fn schema() -> RefOr<Schema> {
+        RawStream::schema()
+    }
+}
+
+impl ToSchema for Stream {
+    fn name() -> Cow<'static, str> {
+        Cow::Borrowed("Stream")
+    }
+    fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
+        RawStream::schemas(schemas);
+    }
 }
 
 impl TryFrom<RawStream> for Stream {
@@ -184,10 +214,32 @@ impl From<Stream> for RawStream {
 }
 
 /// One showing of an action: one or more streams recorded together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Demonstration {
     /// Display name.
     pub name: String,
-    /// At least one stream; stream names are unique.
+    /// At least one stream; stream names and the names of all features are unique.
     pub streams: Vec<Stream>,
+}
+
+impl Demonstration {
+    /// The features of all streams, in order.
+    pub fn features(&self) -> impl Iterator<Item = &Feature> {
+        self.streams.iter().flat_map(Stream::features)
+    }
+
+    /// First and last time of all streams, seconds; `None` without streams.
+    #[must_use]
+    pub fn span_s(&self) -> Option<(f64, f64)> {
+        let start = self.streams.iter().map(|s| s.time_s()[0]).min_by(f64::total_cmp)?;
+        let end = self.streams.iter().map(|s| s.time_s()[s.len() - 1]).max_by(f64::total_cmp)?;
+        Some((start, end))
+    }
+
+    /// Time from the first to the last sample of all streams, seconds.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        self.span_s().map_or(0.0, |(start, end)| end - start)
+    }
 }

@@ -1,0 +1,117 @@
+//! Bytes to text, the form of a text, and which names are allowed.
+
+use super::table::{Findings, Table, quote};
+use super::{Finding, FindingCode, Format};
+
+/// UTF-8 without NUL and other control characters; a byte order mark is left out.
+pub(super) fn decode<'a>(bytes: &'a [u8], stream: &str, findings: &mut Findings) -> Option<&'a str> {
+    let refuse = |findings: &mut Findings, at: usize, what: &str| {
+        let row = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count() as u64;
+        findings.push(
+            Finding::error(FindingCode::NotText, format!("{what} at byte {at}"), "save the file as UTF-8 text")
+                .in_stream(stream)
+                .at_row(row),
+        );
+        None
+    };
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => return refuse(findings, error.valid_up_to(), "not UTF-8"),
+    };
+    if let Some(at) = bytes.iter().position(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r')) {
+        return refuse(findings, at, &format!("control character {:#04x}", bytes[at]));
+    }
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if text.trim().is_empty() {
+        findings.push(
+            Finding::error(FindingCode::Empty, "there is nothing in the file", "give a file of samples")
+                .in_stream(stream),
+        );
+        return None;
+    }
+    Some(text)
+}
+
+/// The form of a text by its first line that is not empty.
+pub(super) fn detect(text: &str) -> Format {
+    if text.trim_start().starts_with(['{', '[']) {
+        return Format::Json;
+    }
+    let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    let mut cells = first.split_whitespace().peekable();
+    let spaced_numbers = first.split_whitespace().nth(1).is_some() && cells.all(looks_numeric);
+    if spaced_numbers { Format::Yarp } else { Format::Csv }
+}
+
+/// A number, or what was meant as one (`1,5`, `nan`), but not a cell of a comma separated line.
+fn looks_numeric(cell: &str) -> bool {
+    cell.parse::<f64>().is_ok()
+        || (cell.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b',' | b'e' | b'E'))
+            && !cell.ends_with(',')
+            && cell.matches(',').count() < 2)
+}
+
+/// Refuses a line beyond the limit; true if there is one.
+pub(super) fn has_long_line(text: &str, limit: usize, stream: &str, findings: &mut Findings) -> bool {
+    let Some((index, line)) = text.split('\n').enumerate().find(|(_, line)| line.len() > limit) else { return false };
+    findings.too_large(
+        &format!("{} bytes in a line", line.len()),
+        &format!("{limit} bytes"),
+        Some((stream, index as u64 + 1)),
+    );
+    true
+}
+
+/// Stream and feature names are `[A-Za-z0-9 _.:-]{1,128}`, units at most 32 visible characters, names unique.
+pub(super) fn check_names(table: &Table, findings: &mut Findings) {
+    let stream = &table.stream;
+    let plain = |name: &str| {
+        (1..=128).contains(&name.len())
+            && name.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b' ' | b'_' | b'.' | b':' | b'-'))
+    };
+    let bad = |what: &str, name: &str, rule: &str| {
+        Finding::error(FindingCode::BadName, format!("{what} {} is not {rule}", quote(name)), "choose another name")
+    };
+    let rule = "1 to 128 of the letters A-Z a-z 0-9 space _ . : -";
+    if !plain(stream) {
+        findings.push(bad("stream name", stream, rule));
+    }
+    for (index, feature) in table.features.iter().enumerate() {
+        let column = format!("column {}", index + 1);
+        if !plain(&feature.name) {
+            findings.push(bad("feature name", &feature.name, rule).in_stream(stream).in_column(&column));
+        }
+        if feature.unit.chars().count() > 32 || feature.unit.chars().any(is_invisible) {
+            let rule = "at most 32 visible characters";
+            findings.push(bad("unit", &feature.unit, rule).in_stream(stream).in_column(&column));
+        }
+        let lower = feature.name.to_lowercase();
+        if table.features[..index].iter().any(|other| other.name.to_lowercase() == lower) {
+            findings.push(
+                Finding::error(
+                    FindingCode::DuplicateColumn,
+                    format!("two columns are called {}", quote(&feature.name)),
+                    "give each column another name; upper and lower case count as the same",
+                )
+                .in_stream(stream)
+                .in_column(column),
+            );
+        }
+    }
+}
+
+/// Display names are 1 to 256 visible characters without direction overrides.
+pub(super) fn check_display_name(name: &str, findings: &mut Findings) {
+    if name.is_empty() || name.chars().count() > 256 || name.chars().any(is_invisible) {
+        findings.push(Finding::error(
+            FindingCode::BadName,
+            format!("demonstration name {} is not 1 to 256 visible characters", quote(name)),
+            "choose another name",
+        ));
+    }
+}
+
+fn is_invisible(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+}
