@@ -6,6 +6,7 @@
 //! - What a job needs is resolved when it is submitted and stored with it: later changes of what it names do not
 //!   reach it.
 
+mod access;
 pub mod actions;
 pub mod demonstrations;
 mod error;
@@ -19,6 +20,7 @@ mod time;
 pub mod trajectories;
 pub mod worlds;
 
+pub use access::Access;
 pub use error::{AppError, ErrorKind, FieldError};
 pub use page::{DEFAULT_PAGE_SIZE, Keyset, MAX_PAGE_SIZE, Page, PageQuery};
 pub use time::Timestamp;

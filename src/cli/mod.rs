@@ -3,6 +3,8 @@
 //! Results go to stdout, progress and errors to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage (clap), 78 refused
 //! by a start-up gate.
 
+mod openapi;
+
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -15,12 +17,17 @@ pub struct Arguments {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    /// Print the OpenAPI 3.1 document of the REST interface.
+    Openapi,
+}
 
 /// Runs the command and turns its error chain into one readable line on stderr.
 #[must_use]
 pub fn main(arguments: &Arguments) -> ExitCode {
-    let result: anyhow::Result<()> = match arguments.command {};
+    let result = match &arguments.command {
+        Command::Openapi => openapi::run(),
+    };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -1,3 +1,150 @@
 //! REST: the router is the URL table; one file a resource.
+//!
+//! # Architecture Invariants
+//! - A handler extracts, makes one `app` call and converts: what a use-case means is decided in `app`.
+//! - Every error answer is a problem (`problem.rs`), those of axum and of panics included (`envelope.rs`).
+//! - Nothing but health and the API's description answers without credentials (`auth.rs`).
+//! - Time-outs and compression stay off streams and off gRPC, which shares the port.
 
 pub mod assets;
+pub mod auth;
+mod envelope;
+pub mod error;
+mod extract;
+mod health;
+pub mod openapi;
+pub mod problem;
+mod verbs;
+
+use crate::app::{Access, App};
+use axum::Router;
+use axum::extract::{DefaultBodyLimit, FromRef, Request};
+use axum::http::StatusCode;
+use axum::http::header::{CONTENT_TYPE, HeaderName, HeaderValue};
+use axum::middleware::{from_fn, from_fn_with_state};
+use axum::response::{IntoResponse as _, Response};
+use openapi::Table as _;
+use std::sync::Arc;
+use std::time::Duration;
+use tower::ServiceExt as _;
+use tower_http::catch_panic::CatchPanicLayer;
+use tower_http::compression::CompressionLayer;
+use tower_http::timeout::TimeoutLayer;
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+/// Where the API lives.
+pub const API: &str = "/api/v1";
+
+/// What the edge itself may be told.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Most bytes of one upload.
+    pub upload_limit_bytes: usize,
+    /// Most bytes of any other body.
+    pub body_limit_bytes: usize,
+    /// Longest time until the head of an answer; not for uploads and gRPC.
+    pub timeout: Duration,
+    /// Names of this server beside its numeric addresses and `localhost`.
+    pub hosts: Vec<String>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            upload_limit_bytes: 256 << 20,
+            body_limit_bytes: 16 << 20,
+            timeout: Duration::from_secs(90),
+            hosts: Vec::new(),
+        }
+    }
+}
+
+/// What handlers share.
+#[derive(Clone)]
+pub struct Api {
+    app: App,
+    settings: Arc<Settings>,
+}
+
+impl FromRef<Api> for App {
+    fn from_ref(api: &Api) -> Self {
+        api.app.clone()
+    }
+}
+
+impl FromRef<Api> for Arc<Settings> {
+    fn from_ref(api: &Api) -> Self {
+        Arc::clone(&api.settings)
+    }
+}
+
+/// The URL table of `/api/v1`.
+fn resources() -> OpenApiRouter<Api> {
+    OpenApiRouter::new()
+}
+
+/// Uploads: as the others, with their own limit of size and none of time.
+fn uploads() -> OpenApiRouter<Api> {
+    OpenApiRouter::new()
+}
+
+fn service() -> OpenApiRouter<Api> {
+    openapi::start().at(routes!(health::livez)).at(routes!(health::readyz)).at(routes!(health::openapi))
+}
+
+/// The OpenAPI document.
+#[must_use]
+pub fn document() -> utoipa::openapi::OpenApi {
+    openapi::finish(service().nest(API, resources()).nest(API, uploads()).into_openapi())
+}
+
+/// The OpenAPI document as it is served, printed and kept: JSON with two spaces and a line end.
+#[must_use]
+pub fn document_json() -> String {
+    let mut text = document().to_pretty_json().unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// Everything that answers on the HTTP port; `grpc` is what gRPC adds to it, without a fallback of its own.
+pub fn router(app: App, access: Access, settings: Settings, grpc: Router) -> Router {
+    let guard = auth::Guard { access, hosts: settings.hosts.clone().into() };
+    let timeout = TimeoutLayer::with_status_code(StatusCode::REQUEST_TIMEOUT, settings.timeout);
+    let api = Api { app, settings: Arc::new(settings) };
+
+    let resources = resources()
+        .layer(DefaultBodyLimit::max(api.settings.body_limit_bytes))
+        .layer(timeout)
+        .layer(CompressionLayer::new());
+    let uploads = uploads().layer(DefaultBodyLimit::disable());
+    let (rest, _) = service().nest(API, resources).nest(API, uploads).split_for_parts();
+    let rest = rest
+        .with_state(api)
+        .fallback(fallback)
+        .method_not_allowed_fallback(|| async { StatusCode::METHOD_NOT_ALLOWED })
+        .layer(from_fn_with_state(guard, auth::require));
+
+    let all = rest.merge(grpc).layer(CatchPanicLayer::custom(envelope::panicked)).layer(from_fn(envelope::wrap));
+    Router::new().fallback_service(all.map_request(verbs::rewrite))
+}
+
+/// What no route takes: the dashboard's, an unknown gRPC method, or nothing.
+async fn fallback(request: Request) -> Response {
+    let content_type = request.headers().get(CONTENT_TYPE).map_or(&b""[..], HeaderValue::as_bytes);
+    if content_type.starts_with(b"application/grpc") {
+        return grpc_status("12");
+    }
+    let page = assets::respond(request.method(), request.uri().path(), request.headers());
+    page.unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
+}
+
+/// A gRPC answer without a message: the status (12 unimplemented, 16 unauthenticated) in the head.
+fn grpc_status(code: &'static str) -> Response {
+    let status = HeaderValue::from_static(code);
+    let headers = [
+        (CONTENT_TYPE, HeaderValue::from_static("application/grpc")),
+        (HeaderName::from_static("grpc-status"), status),
+    ];
+    headers.into_response()
+}

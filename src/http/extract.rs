@@ -1,0 +1,175 @@
+//! Extractors whose rejections are problems: axum's own answer in plain text.
+
+use super::problem::Problem;
+use crate::app::{AppError, ErrorKind};
+use axum::body::Bytes;
+use axum::extract::rejection::BytesRejection;
+use axum::extract::{FromRequest, FromRequestParts, Request};
+use axum::http::header::CONTENT_TYPE;
+use axum::http::request::Parts;
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::fmt::Write as _;
+
+/// A JSON body, in or out.
+#[derive(Debug)]
+pub struct Json<T>(pub T);
+
+impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for Json<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
+        let media_type = request.headers().get(CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or("");
+        if !is_json(media_type) {
+            return Err(unsupported(media_type, "application/json"));
+        }
+        let bytes = Bytes::from_request(request, state).await.map_err(|rejection| unreadable(&rejection))?;
+        parse(&bytes).map(Self).map_err(Problem::from)
+    }
+}
+
+impl<T: Serialize> IntoResponse for Json<T> {
+    fn into_response(self) -> Response {
+        axum::Json(self.0).into_response()
+    }
+}
+
+/// Path parameters.
+#[derive(Debug)]
+pub struct Path<T>(pub T);
+
+impl<S: Send + Sync, T: DeserializeOwned + Send> FromRequestParts<S> for Path<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        match axum::extract::Path::from_request_parts(parts, state).await {
+            Ok(axum::extract::Path(value)) => Ok(Self(value)),
+            Err(rejection) => Err(AppError::new(ErrorKind::Malformed, "invalid_path", rejection.body_text()).into()),
+        }
+    }
+}
+
+/// Query parameters.
+#[derive(Debug)]
+pub struct Query<T>(pub T);
+
+impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Query<T> {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        match axum::extract::Query::from_request_parts(parts, state).await {
+            Ok(axum::extract::Query(value)) => Ok(Self(value)),
+            Err(rejection) => Err(AppError::new(ErrorKind::Malformed, "invalid_query", rejection.body_text()).into()),
+        }
+    }
+}
+
+/// The `Idempotency-Key` header: the same key and request give the same resource.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct IdempotencyKey(pub Option<String>);
+
+impl<S: Send + Sync> FromRequestParts<S> for IdempotencyKey {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        let Some(value) = parts.headers.get("idempotency-key") else { return Ok(Self(None)) };
+        let key = value.to_str().ok().filter(|key| !key.is_empty() && key.len() <= 128);
+        let refuse = || {
+            let message = "the Idempotency-Key header must hold 1 to 128 visible ASCII characters";
+            Problem::from(AppError::new(ErrorKind::Malformed, "invalid_idempotency_key", message))
+        };
+        key.map(|key| Self(Some(key.to_owned()))).ok_or_else(refuse)
+    }
+}
+
+/// The problem of a body that could not be read to its end.
+pub fn unreadable(rejection: &BytesRejection) -> Problem {
+    if rejection.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE {
+        return AppError::new(ErrorKind::TooLarge, "body_too_large", "the body is larger than the limit").into();
+    }
+    AppError::new(ErrorKind::Malformed, "unreadable_body", rejection.body_text()).into()
+}
+
+/// The problem of a content type this address does not read.
+pub fn unsupported(found: &str, expected: &str) -> Problem {
+    let message = format!("content type is {found:?}: send {expected}");
+    let error = AppError::new(ErrorKind::Malformed, "unsupported_media_type", message);
+    Problem { status: axum::http::StatusCode::UNSUPPORTED_MEDIA_TYPE, error }
+}
+
+fn is_json(media_type: &str) -> bool {
+    let essence = media_type.split(';').next().unwrap_or("").trim().to_ascii_lowercase();
+    essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json"))
+}
+
+fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, AppError> {
+    let mut json = serde_json::Deserializer::from_slice(bytes);
+    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        let pointer = pointer(error.path());
+        refusal(pointer, error.inner())
+    })?;
+    json.end().map_err(|error| refusal(String::new(), &error))?;
+    Ok(value)
+}
+
+/// Text that is no JSON is malformed; JSON of another shape is invalid, at its place.
+fn refusal(pointer: String, error: &serde_json::Error) -> AppError {
+    match error.classify() {
+        serde_json::error::Category::Data => AppError::field(pointer, "invalid_value", error.to_string()),
+        _ => AppError::new(ErrorKind::Malformed, "invalid_json", format!("the body is no JSON: {error}")),
+    }
+}
+
+/// RFC 6901.
+fn pointer(path: &serde_path_to_error::Path) -> String {
+    use serde_path_to_error::Segment;
+    path.iter().fold(String::new(), |mut pointer, segment| {
+        let written = match segment {
+            Segment::Seq { index } => write!(pointer, "/{index}"),
+            Segment::Map { key } => write!(pointer, "/{}", key.replace('~', "~0").replace('/', "~1")),
+            Segment::Enum { .. } | Segment::Unknown => Ok(()),
+        };
+        debug_assert!(written.is_ok(), "writing to a string cannot fail");
+        pointer
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize, PartialEq)]
+    #[serde(deny_unknown_fields)]
+    struct Outer {
+        rows: Vec<Inner>,
+    }
+    #[derive(Debug, serde::Deserialize, PartialEq)]
+    struct Inner {
+        count: u8,
+    }
+
+    #[test]
+    fn a_wrong_value_is_invalid_and_told_by_its_pointer() {
+        let error = parse::<Outer>(br#"{"rows": [{"count": 1}, {"count": 300}]}"#).unwrap_err();
+        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/rows/1/count"));
+        let error = parse::<Outer>(br#"{"rows": [], "ro/ws": 1}"#).unwrap_err();
+        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/ro~1ws"));
+    }
+
+    #[test]
+    fn text_that_is_no_json_and_duplicate_keys_are_refused() {
+        for wrong in ["", "{", "{\"rows\": []} x", "\u{feff}{}"] {
+            assert_eq!(parse::<Outer>(wrong.as_bytes()).unwrap_err().kind, ErrorKind::Malformed, "{wrong:?}");
+        }
+        assert!(parse::<Outer>(br#"{"rows": [], "rows": []}"#).is_err());
+        let deep = "[".repeat(10_000);
+        assert_eq!(parse::<serde_json::Value>(deep.as_bytes()).unwrap_err().kind, ErrorKind::Malformed);
+    }
+
+    #[test]
+    fn content_types() {
+        assert!(is_json("application/json; charset=utf-8") && is_json("application/merge-patch+json"));
+        assert!(!is_json("text/csv") && !is_json(""));
+    }
+}

@@ -1,0 +1,45 @@
+//! Is it alive, is it ready, what can it do: the three addresses that need no token.
+
+use super::extract::Json;
+use super::problem::Problem;
+use crate::app::{App, AppError};
+use axum::extract::State;
+use axum::http::header::CONTENT_TYPE;
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// How the service is.
+#[derive(Debug, Serialize, ToSchema)]
+pub struct Health {
+    /// `ok`.
+    status: &'static str,
+    /// Version of the service.
+    version: &'static str,
+}
+
+const OK: Health = Health { status: "ok", version: env!("CARGO_PKG_VERSION") };
+
+/// Whether the process answers.
+#[utoipa::path(get, path = "/livez", operation_id = "livez", tag = "service", security(()),
+    responses((status = 200, description = "The process answers.", body = Health)))]
+pub async fn livez() -> Json<Health> {
+    Json(OK)
+}
+
+/// Whether requests will be answered and jobs worked on.
+#[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "service", security(()),
+    responses((status = 200, description = "Requests are answered and jobs are worked on.", body = Health)))]
+pub async fn readyz(State(app): State<App>) -> Result<Json<Health>, Problem> {
+    if !app.is_ready() {
+        return Err(AppError::unavailable("not_ready", "the service is starting or stopping").into());
+    }
+    Ok(Json(OK))
+}
+
+/// This document.
+#[utoipa::path(get, path = "/openapi.json", operation_id = "getOpenapi", tag = "service", security(()),
+    responses((status = 200, description = "The OpenAPI 3.1 document.", body = serde_json::Value)))]
+pub async fn openapi() -> Response {
+    ([(CONTENT_TYPE, "application/json")], super::document_json()).into_response()
+}

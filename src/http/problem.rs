@@ -1,0 +1,84 @@
+//! RFC 9457 problem details: the one shape every error answer over HTTP has.
+//!
+//! # Architecture Invariants
+//! - A handler or extractor returns a [`Problem`]; the envelope (`envelope.rs`) adds the request id and writes the body.
+//! - What failed underneath (`source`) is logged there, once, and never shown.
+
+use crate::app::{AppError, FieldError};
+use axum::http::StatusCode;
+use axum::http::header::{CONTENT_TYPE, HeaderValue, RETRY_AFTER, WWW_AUTHENTICATE};
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Media type of a problem.
+pub const CONTENT_TYPE_PROBLEM: &str = "application/problem+json";
+
+/// An error answer (RFC 9457).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct ProblemDetails {
+    /// `urn:cgda:problem:` and the code.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// The status' phrase.
+    pub title: String,
+    /// The HTTP status again.
+    pub status: u16,
+    /// Stable machine-readable code, `snake_case`.
+    pub code: String,
+    /// What is wrong and what to do, with the numbers.
+    pub detail: String,
+    /// Names this request in the service's log.
+    pub request_id: String,
+    /// The wrong places of the request, if it is at fault.
+    pub errors: Vec<FieldError>,
+}
+
+/// A status and the error behind it, on its way to the envelope.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// HTTP status.
+    pub status: StatusCode,
+    /// Code, sentence, places and cause.
+    pub error: AppError,
+}
+
+impl Problem {
+    /// The details, as sent.
+    #[must_use]
+    pub fn details(&self, request_id: &str) -> ProblemDetails {
+        ProblemDetails {
+            kind: format!("urn:cgda:problem:{}", self.error.code),
+            title: self.status.canonical_reason().unwrap_or("Error").to_owned(),
+            status: self.status.as_u16(),
+            code: self.error.code.to_owned(),
+            detail: self.error.message.clone(),
+            request_id: request_id.to_owned(),
+            errors: self.error.details.clone(),
+        }
+    }
+
+    /// The complete answer.
+    #[must_use]
+    pub fn render(&self, request_id: &str) -> Response {
+        let body = serde_json::to_vec(&self.details(request_id)).unwrap_or_default();
+        let mut response = (self.status, body).into_response();
+        let headers = response.headers_mut();
+        headers.insert(CONTENT_TYPE, HeaderValue::from_static(CONTENT_TYPE_PROBLEM));
+        if let Some(seconds) = self.error.retry_after_s {
+            headers.insert(RETRY_AFTER, HeaderValue::from(seconds));
+        }
+        if self.status == StatusCode::UNAUTHORIZED {
+            headers.insert(WWW_AUTHENTICATE, HeaderValue::from_static("Bearer realm=\"cgda\""));
+        }
+        response
+    }
+}
+
+impl IntoResponse for Problem {
+    fn into_response(self) -> Response {
+        let mut response = self.status.into_response();
+        response.extensions_mut().insert(self);
+        response
+    }
+}
