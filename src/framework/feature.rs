@@ -19,4 +19,35 @@ impl Feature {
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { name: name.into(), unit: unit.into() }
     }
+
+    /// Name and unit out of a column header: `x [mm]`, `x (mm)` or `x`.
+    #[must_use]
+    pub fn from_header(header: &str) -> Self {
+        let header = header.trim();
+        for (open, close) in [('[', ']'), ('(', ')')] {
+            if let Some((name, unit)) = header.strip_suffix(close).and_then(|rest| rest.rsplit_once(open)) {
+                return Self::new(name.trim(), unit.trim());
+            }
+        }
+        Self::new(header, "")
+    }
+
+    /// The column header `x [mm]`, or `x` without unit.
+    #[must_use]
+    pub fn header(&self) -> String {
+        if self.unit.is_empty() { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn header_holds_name_and_unit() {
+        for feature in [Feature::new("x", "mm"), Feature::new("Tx", "N m"), Feature::new("score", "")] {
+            assert_eq!(Feature::from_header(&feature.header()), feature);
+        }
+        assert_eq!(Feature::from_header(" painted (%) "), Feature::new("painted", "%"));
+    }
 }

@@ -79,7 +79,7 @@ fn header(record: &StringRecord, stream: &str, options: &ReadOptions, findings: 
         let remedy = "begin the file with a line of column names such as `time,x [mm]`, or give the format `yarp`";
         return refuse(findings, FindingCode::MissingHeader, "the first row holds numbers only".to_owned(), remedy);
     }
-    let columns: Vec<Feature> = record.iter().map(column).collect();
+    let columns: Vec<Feature> = record.iter().map(Feature::from_header).collect();
     let names: Vec<String> = columns.iter().map(|c| c.name.clone()).collect();
     let named = |wanted: &str| names.iter().position(|name| name.eq_ignore_ascii_case(wanted));
     let time = match &options.time_column {
@@ -117,16 +117,6 @@ fn header(record: &StringRecord, stream: &str, options: &ReadOptions, findings: 
         return refuse(findings, FindingCode::BadOption, message, "give units for columns of the file");
     }
     Some(Header { names, time, seconds_per_unit, features })
-}
-
-/// `x [mm]` or `x (mm)`: name and unit.
-fn column(cell: &str) -> Feature {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some((name, unit)) = cell.strip_suffix(close).and_then(|rest| rest.rsplit_once(open)) {
-            return Feature::new(name.trim(), unit.trim());
-        }
-    }
-    Feature::new(cell, "")
 }
 
 fn seconds_per(unit: &str) -> Option<f64> {
