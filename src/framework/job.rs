@@ -10,6 +10,7 @@ use utoipa::ToSchema;
 /// Where a job stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+#[schema(as = JobState)]
 pub enum State {
     /// Waits for a worker.
     Queued,

@@ -5,7 +5,7 @@ use crate::app::{AppError, ErrorKind};
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
 use axum::extract::{FromRequest, FromRequestParts, Request};
-use axum::http::header::CONTENT_TYPE;
+use axum::http::header::{CONTENT_TYPE, IF_MATCH};
 use axum::http::request::Parts;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
@@ -35,7 +35,7 @@ impl<T: Serialize> IntoResponse for Json<T> {
     }
 }
 
-/// Path parameters.
+/// Path parameters; an id that can be nobody's is not found like one that is nobody's.
 #[derive(Debug)]
 pub struct Path<T>(pub T);
 
@@ -45,7 +45,10 @@ impl<S: Send + Sync, T: DeserializeOwned + Send> FromRequestParts<S> for Path<T>
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
         match axum::extract::Path::from_request_parts(parts, state).await {
             Ok(axum::extract::Path(value)) => Ok(Self(value)),
-            Err(rejection) => Err(AppError::new(ErrorKind::Malformed, "invalid_path", rejection.body_text()).into()),
+            Err(rejection) => {
+                let message = format!("there is nothing at this address: {}", rejection.body_text());
+                Err(AppError::new(ErrorKind::NotFound, "not_found", message).into())
+            }
         }
     }
 }
@@ -80,6 +83,28 @@ impl<S: Send + Sync> FromRequestParts<S> for IdempotencyKey {
             Problem::from(AppError::new(ErrorKind::Malformed, "invalid_idempotency_key", message))
         };
         key.map(|key| Self(Some(key.to_owned()))).ok_or_else(refuse)
+    }
+}
+
+/// The `If-Match` header: the revision a change is meant for; absent or `*` is any.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IfMatch(pub Option<u64>);
+
+impl<S: Send + Sync> FromRequestParts<S> for IfMatch {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        let Some(value) = parts.headers.get(IF_MATCH) else { return Ok(Self(None)) };
+        let tag = value.to_str().unwrap_or("").trim();
+        let revision = tag.strip_prefix('"').and_then(|t| t.strip_suffix('"')).and_then(|t| t.parse().ok());
+        match revision {
+            Some(revision) => Ok(Self(Some(revision))),
+            None if tag == "*" => Ok(Self(None)),
+            None => {
+                let message = format!("If-Match {tag:?} is no ETag this resource ever had: read it again");
+                Err(AppError::new(ErrorKind::Precondition, "revision_mismatch", message).into())
+            }
+        }
     }
 }
 

@@ -6,15 +6,26 @@
 //! - Nothing but health and the API's description answers without credentials (`auth.rs`).
 //! - Time-outs and compression stay off streams and off gRPC, which shares the port.
 
+mod actions;
+mod answer;
 pub mod assets;
 pub mod auth;
+mod demonstrations;
 mod envelope;
 pub mod error;
+mod events;
 mod extract;
 mod health;
+mod jobs;
 pub mod openapi;
 pub mod problem;
+mod recognitions;
+mod robots;
+mod runs;
+mod trajectories;
+mod uploads;
 mod verbs;
+mod worlds;
 
 use crate::app::{Access, App};
 use axum::Router;
@@ -82,11 +93,42 @@ impl FromRef<Api> for Arc<Settings> {
 /// The URL table of `/api/v1`.
 fn resources() -> OpenApiRouter<Api> {
     OpenApiRouter::new()
+        .at(routes!(demonstrations::list))
+        .at(routes!(demonstrations::get, demonstrations::patch, demonstrations::delete))
+        .at(routes!(demonstrations::samples))
+        .at(routes!(demonstrations::report))
+        .at(routes!(demonstrations::export))
+        .at(routes!(actions::list, actions::create))
+        .at(routes!(actions::get))
+        .at(routes!(actions::goals))
+        .at(routes!(actions::interpolate))
+        .at(routes!(actions::export))
+        .at(routes!(recognitions::create))
+        .at(routes!(robots::list, robots::create))
+        .at(routes!(robots::get, robots::delete))
+        .at(routes!(robots::urdf))
+        .at(routes!(worlds::list, worlds::create))
+        .at(routes!(worlds::get, worlds::delete))
+        .at(routes!(jobs::list, jobs::create))
+        .at(routes!(jobs::validate))
+        .at(routes!(jobs::get))
+        .at(routes!(jobs::pause))
+        .at(routes!(jobs::resume))
+        .at(routes!(jobs::cancel))
+        .at(routes!(jobs::acknowledge))
+        .at(routes!(jobs::clone))
+        .at(routes!(runs::list))
+        .at(routes!(runs::get))
+        .at(routes!(runs::goals))
+        .at(routes!(runs::convergence))
+        .at(routes!(runs::trajectory))
+        .at(routes!(trajectories::get))
+        .at(routes!(trajectories::export))
 }
 
-/// Uploads: as the others, with their own limit of size and none of time.
-fn uploads() -> OpenApiRouter<Api> {
-    OpenApiRouter::new()
+/// The rest of the table: long bodies in or out, without limit of time and without compression.
+fn streams() -> OpenApiRouter<Api> {
+    OpenApiRouter::new().at(routes!(uploads::create)).at(routes!(events::watch))
 }
 
 fn service() -> OpenApiRouter<Api> {
@@ -96,7 +138,7 @@ fn service() -> OpenApiRouter<Api> {
 /// The OpenAPI document.
 #[must_use]
 pub fn document() -> utoipa::openapi::OpenApi {
-    openapi::finish(service().nest(API, resources()).nest(API, uploads()).into_openapi())
+    openapi::finish(service().nest(API, resources().merge(streams())).into_openapi())
 }
 
 /// The OpenAPI document as it is served, printed and kept: JSON with two spaces and a line end.
@@ -117,8 +159,8 @@ pub fn router(app: App, access: Access, settings: Settings, grpc: Router) -> Rou
         .layer(DefaultBodyLimit::max(api.settings.body_limit_bytes))
         .layer(timeout)
         .layer(CompressionLayer::new());
-    let uploads = uploads().layer(DefaultBodyLimit::disable());
-    let (rest, _) = service().nest(API, resources).nest(API, uploads).split_for_parts();
+    let streams = streams().layer(DefaultBodyLimit::disable());
+    let (rest, _) = service().nest(API, resources.merge(streams)).split_for_parts();
     let rest = rest
         .with_state(api)
         .fallback(fallback)

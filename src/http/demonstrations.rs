@@ -1,0 +1,117 @@
+//! `/demonstrations`: look at them, rename, exclude, delete, export; the upload is in `uploads.rs`.
+
+use super::answer::{ExportParameters, PageParameters, file, tagged};
+use super::extract::{IfMatch, Json, Path, Query};
+use super::openapi::Binary;
+use super::problem::Problem;
+use crate::app::demonstrations::{
+    DemonstrationReport, DemonstrationView, PatchDemonstration, SamplesQuery, SamplesView,
+};
+use crate::app::id::DemonstrationId;
+use crate::app::{App, Page};
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+/// Demonstrations, newest first.
+#[utoipa::path(get, path = "/demonstrations", operation_id = "listDemonstrations", tag = "demonstrations",
+    params(PageParameters),
+    responses((status = 200, description = "One page.", body = Page<DemonstrationView>)))]
+pub async fn list(
+    State(app): State<App>,
+    Query(page): Query<PageParameters>,
+) -> Result<Json<Page<DemonstrationView>>, Problem> {
+    Ok(Json(app.list_demonstrations(page.into()).await?))
+}
+
+/// One demonstration.
+#[utoipa::path(get, path = "/demonstrations/{id}", operation_id = "getDemonstration", tag = "demonstrations",
+    params(("id" = DemonstrationId, Path)),
+    responses((status = 200, description = "The demonstration; its revision is the ETag.", body = DemonstrationView)))]
+pub async fn get(State(app): State<App>, Path(id): Path<DemonstrationId>) -> Result<Response, Problem> {
+    let view = app.get_demonstration(&id).await?;
+    Ok(tagged(view.revision, view))
+}
+
+/// Renames a demonstration or leaves it out of new actions, with a reason.
+#[utoipa::path(patch, path = "/demonstrations/{id}", operation_id = "patchDemonstration", tag = "demonstrations",
+    params(("id" = DemonstrationId, Path), ("If-Match" = Option<String>, Header, description = "ETag to change.")),
+    request_body = PatchDemonstration,
+    responses((status = 200, description = "The changed demonstration.", body = DemonstrationView)))]
+pub async fn patch(
+    State(app): State<App>,
+    Path(id): Path<DemonstrationId>,
+    IfMatch(revision): IfMatch,
+    Json(change): Json<PatchDemonstration>,
+) -> Result<Response, Problem> {
+    let view = app.patch_demonstration(&id, change, revision).await?;
+    Ok(tagged(view.revision, view))
+}
+
+/// Deletes a demonstration; actions made of it keep their goals.
+#[utoipa::path(delete, path = "/demonstrations/{id}", operation_id = "deleteDemonstration", tag = "demonstrations",
+    params(("id" = DemonstrationId, Path), ("If-Match" = Option<String>, Header, description = "ETag to delete.")),
+    responses((status = 204, description = "Deleted.")))]
+pub async fn delete(
+    State(app): State<App>,
+    Path(id): Path<DemonstrationId>,
+    IfMatch(revision): IfMatch,
+) -> Result<StatusCode, Problem> {
+    app.delete_demonstration(&id, revision).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Which samples.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct SamplesParameters {
+    /// Features by name, separated by commas; all when absent.
+    features: Option<String>,
+    /// From this time on, seconds after the first sample.
+    from: Option<f64>,
+    /// Up to this time, seconds after the first sample.
+    to: Option<f64>,
+    /// Most points a feature, by minimum and maximum of each bin; 1000 when absent.
+    #[param(minimum = 2, maximum = 20000)]
+    max_points: Option<u32>,
+}
+
+/// Samples, decimated so that no minimum and no maximum is lost.
+#[utoipa::path(get, path = "/demonstrations/{id}/samples", operation_id = "getDemonstrationSamples",
+    tag = "demonstrations", params(("id" = DemonstrationId, Path), SamplesParameters),
+    responses((status = 200, description = "One series a feature.", body = SamplesView)))]
+pub async fn samples(
+    State(app): State<App>,
+    Path(id): Path<DemonstrationId>,
+    Query(wanted): Query<SamplesParameters>,
+) -> Result<Json<SamplesView>, Problem> {
+    let features = wanted.features.map(|names| names.split(',').map(str::to_owned).collect()).unwrap_or_default();
+    let query = SamplesQuery { features, from_s: wanted.from, to_s: wanted.to, max_points: wanted.max_points };
+    Ok(Json(app.demonstration_samples(&id, query).await?))
+}
+
+/// What the reader found at upload.
+#[utoipa::path(get, path = "/demonstrations/{id}/report", operation_id = "getDemonstrationReport",
+    tag = "demonstrations", params(("id" = DemonstrationId, Path)),
+    responses((status = 200, description = "Findings in the order of the data.", body = DemonstrationReport)))]
+pub async fn report(
+    State(app): State<App>,
+    Path(id): Path<DemonstrationId>,
+) -> Result<Json<DemonstrationReport>, Problem> {
+    Ok(Json(app.demonstration_report(&id).await?))
+}
+
+/// The samples as a file: `csv` (one stream only) or `json`.
+#[utoipa::path(get, path = "/demonstrations/{id}:export", operation_id = "exportDemonstration",
+    tag = "demonstrations", params(("id" = DemonstrationId, Path), ExportParameters),
+    responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream")))]
+pub async fn export(
+    State(app): State<App>,
+    Path(id): Path<DemonstrationId>,
+    Query(wanted): Query<ExportParameters>,
+) -> Result<Response, Problem> {
+    Ok(file(app.export_demonstration(&id, &wanted.format).await?))
+}

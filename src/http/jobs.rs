@@ -1,0 +1,122 @@
+//! `/jobs`: submit, look, steer; their events are in `events.rs`.
+
+use super::answer::accepted;
+use super::extract::{IdempotencyKey, Json, Path, Query};
+use super::problem::Problem;
+use crate::app::id::JobId;
+use crate::app::jobs::{CreateJob, JobFilter, JobKind, JobView, Validation};
+use crate::app::{App, AppError, ErrorKind, Page, PageQuery};
+use crate::framework::job::State as JobState;
+use axum::extract::State;
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+/// Submits a job.
+#[utoipa::path(post, path = "/jobs", operation_id = "createJob", tag = "jobs",
+    params(("Idempotency-Key" = Option<String>, Header, description = "Same key and body: same job.")),
+    request_body = CreateJob,
+    responses((status = 202, description = "The job.", body = JobView)))]
+pub async fn create(
+    State(app): State<App>,
+    IdempotencyKey(key): IdempotencyKey,
+    Json(request): Json<CreateJob>,
+) -> Result<Response, Problem> {
+    Ok(accepted(app.create_job(request, key).await?))
+}
+
+/// Dry run: what is wrong with a job and what it would cost.
+#[utoipa::path(post, path = "/jobs:validate", operation_id = "validateJob", tag = "jobs", request_body = CreateJob,
+    responses((status = 200, description = "Errors, or an estimate.", body = Validation)))]
+pub async fn validate(State(app): State<App>, Json(request): Json<CreateJob>) -> Result<Json<Validation>, Problem> {
+    Ok(Json(app.validate_job(request).await?))
+}
+
+/// Which jobs.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct JobsParameters {
+    /// In one of these states, separated by commas, for example `QUEUED,RUNNING`; any when absent.
+    state: Option<String>,
+    /// Of this kind.
+    #[param(inline)]
+    kind: Option<JobKind>,
+    /// Most items on the page; 50 when absent.
+    #[param(minimum = 1, maximum = 200)]
+    page_size: Option<u32>,
+    /// `next_page_token` of the page before.
+    page_token: Option<String>,
+}
+
+/// Jobs, newest first.
+#[utoipa::path(get, path = "/jobs", operation_id = "listJobs", tag = "jobs", params(JobsParameters),
+    responses((status = 200, description = "One page.", body = Page<JobView>)))]
+pub async fn list(
+    State(app): State<App>,
+    Query(wanted): Query<JobsParameters>,
+) -> Result<Json<Page<JobView>>, Problem> {
+    let filter = JobFilter { states: states(wanted.state.as_deref())?, kind: wanted.kind };
+    let page = PageQuery { page_size: wanted.page_size, page_token: wanted.page_token };
+    Ok(Json(app.list_jobs(filter, page).await?))
+}
+
+fn states(text: Option<&str>) -> Result<Vec<JobState>, AppError> {
+    let names = text.unwrap_or("").split(',').filter(|name| !name.is_empty());
+    names.map(state).collect()
+}
+
+fn state(name: &str) -> Result<JobState, AppError> {
+    serde_json::from_value(serde_json::Value::from(name)).map_err(|_| {
+        let message = format!("{name:?} is no state of a job: give for example QUEUED, RUNNING or SUCCEEDED");
+        AppError::new(ErrorKind::Malformed, "invalid_query", message)
+    })
+}
+
+/// One job.
+#[utoipa::path(get, path = "/jobs/{id}", operation_id = "getJob", tag = "jobs", params(("id" = JobId, Path)),
+    responses((status = 200, description = "The job.", body = JobView)))]
+pub async fn get(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+    Ok(Json(app.get_job(&id).await?))
+}
+
+/// Asks a job to rest at its next checkpoint.
+#[utoipa::path(post, path = "/jobs/{id}:pause", operation_id = "pauseJob", tag = "jobs",
+    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
+pub async fn pause(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+    Ok(Json(app.pause_job(&id).await?))
+}
+
+/// Lets a paused job go on.
+#[utoipa::path(post, path = "/jobs/{id}:resume", operation_id = "resumeJob", tag = "jobs",
+    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
+pub async fn resume(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+    Ok(Json(app.resume_job(&id).await?))
+}
+
+/// Asks a job to end without a result; finished runs are kept.
+#[utoipa::path(post, path = "/jobs/{id}:cancel", operation_id = "cancelJob", tag = "jobs",
+    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
+pub async fn cancel(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+    Ok(Json(app.cancel_job(&id).await?))
+}
+
+/// Lets a halted job wait for a worker again.
+#[utoipa::path(post, path = "/jobs/{id}:acknowledge", operation_id = "acknowledgeJob", tag = "jobs",
+    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
+pub async fn acknowledge(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+    Ok(Json(app.acknowledge_job(&id).await?))
+}
+
+/// Submits the same job again, with the same seed.
+#[utoipa::path(post, path = "/jobs/{id}:clone", operation_id = "cloneJob", tag = "jobs",
+    params(("id" = JobId, Path),
+        ("Idempotency-Key" = Option<String>, Header, description = "Same key and body: same job.")),
+    responses((status = 202, description = "The new job.", body = JobView)))]
+pub async fn clone(
+    State(app): State<App>,
+    Path(id): Path<JobId>,
+    IdempotencyKey(key): IdempotencyKey,
+) -> Result<Response, Problem> {
+    Ok(accepted(app.clone_job(&id, key).await?))
+}

@@ -1,0 +1,18 @@
+//! `/recognitions`: which action an observation looks like, or none of them.
+
+use super::extract::Json;
+use super::problem::Problem;
+use crate::app::App;
+use crate::app::recognitions::{RecognitionView, RecognizeRequest};
+use axum::extract::State;
+
+/// Ranks actions by their discrepancy to an observation.
+#[utoipa::path(post, path = "/recognitions", operation_id = "recognize", tag = "recognitions",
+    request_body = RecognizeRequest,
+    responses((status = 200, description = "Candidates, best first.", body = RecognitionView)))]
+pub async fn create(
+    State(app): State<App>,
+    Json(request): Json<RecognizeRequest>,
+) -> Result<Json<RecognitionView>, Problem> {
+    Ok(Json(app.recognize(request).await?))
+}

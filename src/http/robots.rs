@@ -1,0 +1,54 @@
+//! `/robots`: a URDF and the part of it that moves; every version is immutable.
+
+use super::answer::{PageParameters, created};
+use super::extract::{Json, Path, Query};
+use super::problem::Problem;
+use crate::app::id::RobotId;
+use crate::app::robots::{CreateRobot, RobotView};
+use crate::app::{App, Page};
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::http::header::CONTENT_TYPE;
+use axum::response::{IntoResponse as _, Response};
+
+/// Checks and keeps a robot; a taken name makes a new version of it.
+#[utoipa::path(post, path = "/robots", operation_id = "createRobot", tag = "robots", request_body = CreateRobot,
+    responses((status = 201, description = "The robot.", body = RobotView)))]
+pub async fn create(State(app): State<App>, Json(request): Json<CreateRobot>) -> Result<Response, Problem> {
+    let view = app.create_robot(request).await?;
+    Ok(created("robots", view.id.clone().as_str(), view))
+}
+
+/// Robots, newest first.
+#[utoipa::path(get, path = "/robots", operation_id = "listRobots", tag = "robots", params(PageParameters),
+    responses((status = 200, description = "One page.", body = Page<RobotView>)))]
+pub async fn list(
+    State(app): State<App>,
+    Query(page): Query<PageParameters>,
+) -> Result<Json<Page<RobotView>>, Problem> {
+    Ok(Json(app.list_robots(page.into()).await?))
+}
+
+/// One robot without its URDF.
+#[utoipa::path(get, path = "/robots/{id}", operation_id = "getRobot", tag = "robots", params(("id" = RobotId, Path)),
+    responses((status = 200, description = "The robot.", body = RobotView)))]
+pub async fn get(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Json<RobotView>, Problem> {
+    Ok(Json(app.get_robot(&id).await?))
+}
+
+/// The URDF of a robot, as it was given.
+#[utoipa::path(get, path = "/robots/{id}/urdf", operation_id = "getRobotUrdf", tag = "robots",
+    params(("id" = RobotId, Path)),
+    responses((status = 200, description = "The URDF.", body = String, content_type = "application/xml")))]
+pub async fn urdf(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Response, Problem> {
+    let urdf = app.robot_urdf(&id).await?;
+    Ok(([(CONTENT_TYPE, "application/xml; charset=utf-8")], urdf).into_response())
+}
+
+/// Deletes a robot that no job names.
+#[utoipa::path(delete, path = "/robots/{id}", operation_id = "deleteRobot", tag = "robots",
+    params(("id" = RobotId, Path)), responses((status = 204, description = "Deleted.")))]
+pub async fn delete(State(app): State<App>, Path(id): Path<RobotId>) -> Result<StatusCode, Problem> {
+    app.delete_robot(&id).await?;
+    Ok(StatusCode::NO_CONTENT)
+}

@@ -1,0 +1,82 @@
+//! `/runs`: one finished repetition of an execution job each.
+
+use super::extract::{Json, Path, Query};
+use super::problem::Problem;
+use crate::app::id::{JobId, RunId};
+use crate::app::runs::{Convergence, RunFilter, RunGoals, RunView};
+use crate::app::trajectories::TrajectoryView;
+use crate::app::{App, Page, PageQuery};
+use axum::extract::State;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+/// Which runs.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct RunsParameters {
+    /// Of this job only.
+    #[param(value_type = Option<String>)]
+    job: Option<JobId>,
+    /// Most items on the page; 50 when absent.
+    #[param(minimum = 1, maximum = 200)]
+    page_size: Option<u32>,
+    /// `next_page_token` of the page before.
+    page_token: Option<String>,
+}
+
+/// Runs, newest first.
+#[utoipa::path(get, path = "/runs", operation_id = "listRuns", tag = "runs", params(RunsParameters),
+    responses((status = 200, description = "One page.", body = Page<RunView>)))]
+pub async fn list(
+    State(app): State<App>,
+    Query(wanted): Query<RunsParameters>,
+) -> Result<Json<Page<RunView>>, Problem> {
+    let page = PageQuery { page_size: wanted.page_size, page_token: wanted.page_token };
+    Ok(Json(app.list_runs(RunFilter { job: wanted.job }, page).await?))
+}
+
+/// One run.
+#[utoipa::path(get, path = "/runs/{id}", operation_id = "getRun", tag = "runs", params(("id" = RunId, Path)),
+    responses((status = 200, description = "The run.", body = RunView)))]
+pub async fn get(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunView>, Problem> {
+    Ok(Json(app.get_run(&id).await?))
+}
+
+/// The goals of a run, asked for and reached.
+#[utoipa::path(get, path = "/runs/{id}/goals", operation_id = "getRunGoals", tag = "runs",
+    params(("id" = RunId, Path)),
+    responses((status = 200, description = "One entry a goal.", body = RunGoals)))]
+pub async fn goals(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunGoals>, Problem> {
+    Ok(Json(app.run_goals(&id).await?))
+}
+
+/// How many points.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct ConvergenceParameters {
+    /// Most points.
+    #[param(minimum = 2)]
+    max_points: Option<u32>,
+}
+
+/// Discrepancy against evaluations.
+#[utoipa::path(get, path = "/runs/{id}/convergence", operation_id = "getRunConvergence", tag = "runs",
+    params(("id" = RunId, Path), ConvergenceParameters),
+    responses((status = 200, description = "Points in the order of evaluations.", body = Convergence)))]
+pub async fn convergence(
+    State(app): State<App>,
+    Path(id): Path<RunId>,
+    Query(wanted): Query<ConvergenceParameters>,
+) -> Result<Json<Convergence>, Problem> {
+    Ok(Json(app.run_convergence(&id, wanted.max_points).await?))
+}
+
+/// The trajectory of a run.
+#[utoipa::path(get, path = "/runs/{id}/trajectory", operation_id = "getRunTrajectory", tag = "runs",
+    params(("id" = RunId, Path)),
+    responses((status = 200, description = "The trajectory with its points.", body = TrajectoryView)))]
+pub async fn trajectory(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<TrajectoryView>, Problem> {
+    Ok(Json(app.run_trajectory(&id).await?))
+}

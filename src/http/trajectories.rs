@@ -1,0 +1,31 @@
+//! `/trajectories`: checked joint trajectories.
+
+use super::answer::{ExportParameters, file};
+use super::extract::{Json, Path, Query};
+use super::openapi::Binary;
+use super::problem::Problem;
+use crate::app::App;
+use crate::app::id::TrajectoryId;
+use crate::app::trajectories::TrajectoryView;
+use axum::extract::State;
+use axum::response::Response;
+
+/// One trajectory with its points.
+#[utoipa::path(get, path = "/trajectories/{id}", operation_id = "getTrajectory", tag = "trajectories",
+    params(("id" = TrajectoryId, Path)),
+    responses((status = 200, description = "The trajectory.", body = TrajectoryView)))]
+pub async fn get(State(app): State<App>, Path(id): Path<TrajectoryId>) -> Result<Json<TrajectoryView>, Problem> {
+    Ok(Json(app.get_trajectory(&id).await?))
+}
+
+/// The trajectory as a file: `csv`, `json` or `ros2` (trajectory_msgs/JointTrajectory).
+#[utoipa::path(get, path = "/trajectories/{id}:export", operation_id = "exportTrajectory", tag = "trajectories",
+    params(("id" = TrajectoryId, Path), ExportParameters),
+    responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream")))]
+pub async fn export(
+    State(app): State<App>,
+    Path(id): Path<TrajectoryId>,
+    Query(wanted): Query<ExportParameters>,
+) -> Result<Response, Problem> {
+    Ok(file(app.export_trajectory(&id, &wanted.format).await?))
+}

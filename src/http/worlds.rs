@@ -1,0 +1,44 @@
+//! `/worlds`: where effects happen.
+
+use super::answer::{PageParameters, created};
+use super::extract::{Json, Path, Query};
+use super::problem::Problem;
+use crate::app::id::WorldId;
+use crate::app::worlds::{CreateWorld, WorldView};
+use crate::app::{App, Page};
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::response::Response;
+
+/// Checks and keeps a world.
+#[utoipa::path(post, path = "/worlds", operation_id = "createWorld", tag = "worlds", request_body = CreateWorld,
+    responses((status = 201, description = "The world.", body = WorldView)))]
+pub async fn create(State(app): State<App>, Json(request): Json<CreateWorld>) -> Result<Response, Problem> {
+    let view = app.create_world(request).await?;
+    Ok(created("worlds", view.id.clone().as_str(), view))
+}
+
+/// Worlds, newest first.
+#[utoipa::path(get, path = "/worlds", operation_id = "listWorlds", tag = "worlds", params(PageParameters),
+    responses((status = 200, description = "One page.", body = Page<WorldView>)))]
+pub async fn list(
+    State(app): State<App>,
+    Query(page): Query<PageParameters>,
+) -> Result<Json<Page<WorldView>>, Problem> {
+    Ok(Json(app.list_worlds(page.into()).await?))
+}
+
+/// One world.
+#[utoipa::path(get, path = "/worlds/{id}", operation_id = "getWorld", tag = "worlds", params(("id" = WorldId, Path)),
+    responses((status = 200, description = "The world.", body = WorldView)))]
+pub async fn get(State(app): State<App>, Path(id): Path<WorldId>) -> Result<Json<WorldView>, Problem> {
+    Ok(Json(app.get_world(&id).await?))
+}
+
+/// Deletes a world that no job names.
+#[utoipa::path(delete, path = "/worlds/{id}", operation_id = "deleteWorld", tag = "worlds",
+    params(("id" = WorldId, Path)), responses((status = 204, description = "Deleted.")))]
+pub async fn delete(State(app): State<App>, Path(id): Path<WorldId>) -> Result<StatusCode, Problem> {
+    app.delete_world(&id).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
