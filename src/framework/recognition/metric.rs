@@ -1,5 +1,6 @@
 //! The named metrics of discrepancy; always stored beside a value, never implicit.
 
+use super::dtw::Border;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -8,7 +9,8 @@ use utoipa::ToSchema;
 #[serde(rename_all = "snake_case")]
 #[clap(rename_all = "snake_case")]
 pub enum Metric {
-    /// One optimal path per feature, the normalised costs summed (paper eq. 4-6).
+    /// One optimal path per feature, the normalised costs summed (paper eq. 4-6): each feature's distance is divided by
+    /// I + J, the number of rows on both sides (Sakoe and Chiba's normaliser, the same for every path).
     SumOfFeatures,
     /// Euclidean local distance over all features jointly, one path, standard borders.
     #[default]
@@ -16,4 +18,15 @@ pub enum Metric {
     /// As `multivariate`, but the first row and column of the accumulated matrix hold the local distance only: what
     /// the paper's published numbers used.
     Aquila,
+}
+
+impl Metric {
+    /// The borders of its accumulated matrices.
+    #[must_use]
+    pub fn border(self) -> Border {
+        match self {
+            Self::SumOfFeatures | Self::Multivariate => Border::Accumulated,
+            Self::Aquila => Border::Local,
+        }
+    }
 }

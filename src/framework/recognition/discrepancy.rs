@@ -1,0 +1,170 @@
+//! The discrepancy of each metric, as one number or split by feature with its path.
+
+use super::Metric;
+use super::dtw::{self, Border};
+use crate::framework::Feature;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Discrepancy D between an observation of I rows and J goals over the same m features, in the features' unit.
+///
+/// `observed` and `goals` are row-major with `features` columns; O(J) memory.
+///
+/// # Panics
+/// When either is empty or not a whole number of rows.
+#[must_use]
+pub fn discrepancy(metric: Metric, observed: &[f64], goals: &[f64], features: usize) -> f64 {
+    match metric {
+        Metric::Multivariate | Metric::Aquila => dtw::distance(observed, goals, features, metric.border()),
+        Metric::SumOfFeatures => {
+            let rows = (observed.len() + goals.len()) / features;
+            (0..features)
+                .map(|k| {
+                    let (o, x) = (column(observed, features, k), column(goals, features, k));
+                    dtw::distance(&o, &x, 1, Border::Accumulated) / rows as f64
+                })
+                .sum()
+        }
+    }
+}
+
+/// One feature's part of a discrepancy.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct FeatureDiscrepancy {
+    /// The feature.
+    pub feature: Feature,
+    /// Its part; the parts of all features add up to the discrepancy.
+    pub discrepancy: f64,
+    /// Its own warping path for `sum_of_features`; empty for metrics with one path for all features.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub path: Vec<[u32; 2]>,
+}
+
+/// A discrepancy with all that is known about it.
+pub(super) struct Detailed {
+    pub discrepancy: f64,
+    /// What the discrepancy is divided by to be a mean distance of matched rows.
+    pub steps: f64,
+    /// Joint path; empty for `sum_of_features`.
+    pub path: Vec<[u32; 2]>,
+    pub features: Vec<FeatureDiscrepancy>,
+}
+
+/// As [`discrepancy`] with the split and path; O(I x J) memory.
+///
+/// Joint metrics are split along their path: a matched pair at distance d, of which feature k has delta_k, adds
+/// `delta_k^2 / d` to feature k. For `aquila` only the pairs that make the value count, those from the last border cell.
+pub(super) fn detailed(metric: Metric, observed: &[f64], goals: &[f64], features: &[Feature]) -> Detailed {
+    let m = features.len();
+    if metric == Metric::SumOfFeatures {
+        return sum_of_features(observed, goals, features);
+    }
+    let alignment = dtw::align(observed, goals, m, metric.border());
+    let counted_from = match metric.border() {
+        Border::Accumulated => 0,
+        Border::Local => alignment.path.iter().rposition(|&(i, j)| i == 0 || j == 0).unwrap_or(0),
+    };
+    let mut parts = vec![0.0; m];
+    for &(i, j) in &alignment.path[counted_from..] {
+        let (o, x) = (&observed[i * m..(i + 1) * m], &goals[j * m..(j + 1) * m]);
+        let distance = o.iter().zip(x).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt();
+        if distance > 0.0 {
+            for (part, (o, x)) in parts.iter_mut().zip(o.iter().zip(x)) {
+                *part += (o - x) * (o - x) / distance;
+            }
+        }
+    }
+    let split = features.iter().zip(parts).map(|(feature, discrepancy)| FeatureDiscrepancy {
+        feature: feature.clone(),
+        discrepancy,
+        path: Vec::new(),
+    });
+    Detailed {
+        discrepancy: alignment.distance,
+        steps: (alignment.path.len() - counted_from) as f64,
+        features: split.collect(),
+        path: pairs(&alignment.path),
+    }
+}
+
+fn sum_of_features(observed: &[f64], goals: &[f64], features: &[Feature]) -> Detailed {
+    let m = features.len();
+    let rows = (observed.len() + goals.len()) / m;
+    let split: Vec<FeatureDiscrepancy> = features
+        .iter()
+        .enumerate()
+        .map(|(k, feature)| {
+            let (o, x) = (column(observed, m, k), column(goals, m, k));
+            let alignment = dtw::align(&o, &x, 1, Border::Accumulated);
+            FeatureDiscrepancy {
+                feature: feature.clone(),
+                discrepancy: alignment.distance / rows as f64,
+                path: pairs(&alignment.path),
+            }
+        })
+        .collect();
+    Detailed {
+        discrepancy: split.iter().map(|part| part.discrepancy).sum(),
+        steps: 1.0,
+        path: Vec::new(),
+        features: split,
+    }
+}
+
+fn column(values: &[f64], features: usize, k: usize) -> Vec<f64> {
+    values.iter().skip(k).step_by(features).copied().collect()
+}
+
+fn pairs(path: &[(usize, usize)]) -> Vec<[u32; 2]> {
+    let narrow = |index: usize| u32::try_from(index).unwrap_or(u32::MAX);
+    path.iter().map(|&(i, j)| [narrow(i), narrow(j)]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn features(m: usize) -> Vec<Feature> {
+        (0..m).map(|k| Feature::new(format!("f{k}"), "")).collect()
+    }
+
+    #[test]
+    fn known_values_of_all_metrics() {
+        // one feature: accumulated 4, local borders 3 (see dtw), 4 / (3 + 4) normalised
+        let (observed, goals) = ([0.0, 2.0, 3.0], [1.0, 1.0, 2.0, 5.0]);
+        for (metric, expected) in
+            [(Metric::Multivariate, 4.0), (Metric::Aquila, 3.0), (Metric::SumOfFeatures, 4.0 / 7.0)]
+        {
+            let found = discrepancy(metric, &observed, &goals, 1);
+            assert!((found - expected).abs() < 1e-12, "{metric:?}: {found} against {expected}");
+        }
+    }
+
+    #[test]
+    fn a_three_four_five_pair_splits_by_its_squares() {
+        let found = detailed(Metric::Multivariate, &[0.0, 0.0], &[3.0, 4.0], &features(2));
+        assert!((found.discrepancy - 5.0).abs() < 1e-12);
+        assert!((found.features[0].discrepancy - 9.0 / 5.0).abs() < 1e-12);
+        assert!((found.features[1].discrepancy - 16.0 / 5.0).abs() < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn parts_add_up_and_agree_with_the_short_form(
+            observed in proptest::collection::vec(-9.0..9.0_f64, 1..8),
+            goals in proptest::collection::vec(-9.0..9.0_f64, 1..8),
+            m in 1..3_usize,
+        ) {
+            let observed: Vec<f64> = observed.iter().flat_map(|v| (0..m).map(move |k| v * (1.0 + k as f64))).collect();
+            let goals: Vec<f64> = goals.iter().flat_map(|v| (0..m).map(move |k| v - k as f64)).collect();
+            for metric in [Metric::SumOfFeatures, Metric::Multivariate, Metric::Aquila] {
+                let whole = detailed(metric, &observed, &goals, &features(m));
+                let short = discrepancy(metric, &observed, &goals, m);
+                prop_assert_eq!(whole.discrepancy.to_bits(), short.to_bits());
+                let sum: f64 = whole.features.iter().map(|part| part.discrepancy).sum();
+                prop_assert!((sum - short).abs() < 1e-9, "{metric:?}: {sum} against {short}");
+            }
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Ranking of an observation against candidate actions, with an open set: none of them is an answer too.
+//!
+//! Symbols: D the discrepancy; K the number of matched pairs that make it (1 for `sum_of_features`, which is
+//! normalised already); R the size of the action, the diagonal of the box around its goals (the sum of the box's sides
+//! for `sum_of_features`; 1 where all goals are equal). The *relative discrepancy* D / (K R) has no unit: 0.1 says that
+//! matched rows are on average a tenth of the action's own size apart. Actions of different features and units can be
+//! ranked by it, and the open set's threshold is in it.
+
+use super::discrepancy::detailed;
+use super::{FeatureDiscrepancy, Metric};
+use crate::framework::Feature;
+use crate::framework::generalization::Goals;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// Relative discrepancy above which the best candidate is not recognised, where none is given.
+pub const DEFAULT_THRESHOLD: f64 = 0.2;
+/// Largest matrix of an observation against goals, cells (8 bytes each).
+const MAX_CELLS: usize = 16 << 20;
+
+/// How to recognise.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RecognizeSpec {
+    /// How the discrepancy is measured.
+    pub metric: Metric,
+    /// Largest relative discrepancy of a recognised action (no unit); 0.2 when absent.
+    pub threshold: Option<f64>,
+}
+
+/// What was recognised, and every candidate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Recognition {
+    /// Name of the best candidate; absent is *unknown*: none is within the threshold.
+    pub recognized: Option<String>,
+    /// The metric in use.
+    pub metric: Metric,
+    /// The threshold in use, relative discrepancy.
+    pub threshold: f64,
+    /// Every comparable candidate, smallest relative discrepancy first; ties by name.
+    pub matches: Vec<Match>,
+    /// Candidates that could not be compared, and why.
+    pub incomparable: Vec<Incomparable>,
+}
+
+/// One candidate's discrepancy.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Match {
+    /// Name of the action.
+    pub name: String,
+    /// D, features' unit.
+    pub discrepancy: f64,
+    /// D / (K R), no unit.
+    pub relative_discrepancy: f64,
+    /// Whether it is within the threshold.
+    pub within_threshold: bool,
+    /// D split by feature, in the action's order.
+    pub features: Vec<FeatureDiscrepancy>,
+    /// Warping path: pairs of observed row and goal, from 0; empty for `sum_of_features`, whose features have their own.
+    pub path: Vec<[u32; 2]>,
+}
+
+/// A candidate whose features were not observed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Incomparable {
+    /// Name of the action.
+    pub name: String,
+    /// The feature that is missing or in another unit.
+    pub feature: Feature,
+    /// Unit in which it was observed; absent where it was not observed.
+    pub observed_unit: Option<String>,
+}
+
+/// Why nothing could be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RecognizeError {
+    /// The threshold is not a number from 0.
+    #[error("the threshold is {threshold}: give a relative discrepancy of 0 or more")]
+    Threshold {
+        /// As asked for.
+        threshold: f64,
+    },
+    /// An observation too long to be warped whole.
+    #[error("{rows} observed rows against {goals} goals are more than {limit} cells: observe at a lower rate")]
+    TooLarge {
+        /// Observed rows.
+        rows: usize,
+        /// Goals of the candidate.
+        goals: usize,
+        /// Largest product.
+        limit: usize,
+    },
+}
+
+/// Ranks `candidates` (name, goals) by how well `observed` (one row a sample) shows them.
+///
+/// A candidate is compared over its own features, matched by name and unit; what was observed beside them is left out.
+///
+/// # Errors
+/// [`RecognizeError`] for a threshold out of range or an observation that is too long.
+pub fn recognize(
+    observed: &Goals,
+    candidates: &[(String, Goals)],
+    spec: &RecognizeSpec,
+) -> Result<Recognition, RecognizeError> {
+    let threshold = spec.threshold.unwrap_or(DEFAULT_THRESHOLD);
+    if threshold.is_nan() || threshold < 0.0 {
+        return Err(RecognizeError::Threshold { threshold });
+    }
+    let mut matches = Vec::new();
+    let mut incomparable = Vec::new();
+    for (name, goals) in candidates {
+        if observed.len().saturating_mul(goals.len()) > MAX_CELLS {
+            return Err(RecognizeError::TooLarge { rows: observed.len(), goals: goals.len(), limit: MAX_CELLS });
+        }
+        match project(observed, goals.features()) {
+            Ok(rows) => matches.push(compare(name, &rows, goals, spec.metric, threshold)),
+            Err((feature, observed_unit)) => {
+                incomparable.push(Incomparable { name: name.clone(), feature, observed_unit });
+            }
+        }
+    }
+    matches.sort_by(|a, b| a.relative_discrepancy.total_cmp(&b.relative_discrepancy).then_with(|| a.name.cmp(&b.name)));
+    let recognized = matches.first().filter(|best| best.within_threshold).map(|best| best.name.clone());
+    Ok(Recognition { recognized, metric: spec.metric, threshold, matches, incomparable })
+}
+
+fn compare(name: &str, rows: &[f64], goals: &Goals, metric: Metric, threshold: f64) -> Match {
+    let found = detailed(metric, rows, goals.values(), goals.features());
+    let relative_discrepancy = found.discrepancy / (found.steps * size(goals, metric));
+    Match {
+        name: name.to_owned(),
+        discrepancy: found.discrepancy,
+        relative_discrepancy,
+        within_threshold: relative_discrepancy <= threshold,
+        features: found.features,
+        path: found.path,
+    }
+}
+
+/// The columns of `features` out of the observation, or the feature that is missing with the unit it was observed in.
+fn project(observed: &Goals, features: &[Feature]) -> Result<Vec<f64>, (Feature, Option<String>)> {
+    let column = |feature: &Feature| match observed.features().iter().position(|f| f.name == feature.name) {
+        Some(column) if observed.features()[column].unit == feature.unit => Ok(column),
+        Some(column) => Err((feature.clone(), Some(observed.features()[column].unit.clone()))),
+        None => Err((feature.clone(), None)),
+    };
+    let columns = features.iter().map(column).collect::<Result<Vec<usize>, _>>()?;
+    Ok(observed.rows().flat_map(|row| columns.iter().map(|&column| row[column])).collect())
+}
+
+/// R, the size of an action in its features' unit.
+fn size(goals: &Goals, metric: Metric) -> f64 {
+    let side = |feature: usize| {
+        let values = goals.rows().map(move |row| row[feature]);
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        high - low
+    };
+    let sides = (0..goals.features().len()).map(side);
+    let size = match metric {
+        Metric::SumOfFeatures => sides.sum(),
+        Metric::Multivariate | Metric::Aquila => sides.map(|s| s * s).sum::<f64>().sqrt(),
+    };
+    if size > 0.0 { size } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn goals(unit: &str, rows: &[[f64; 2]]) -> Goals {
+        let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.to_vec()).collect();
+        Goals::new(vec![Feature::new("x", unit), Feature::new("y", unit)], &rows).unwrap()
+    }
+
+    fn candidates() -> Vec<(String, Goals)> {
+        vec![
+            ("back".to_owned(), goals("mm", &[[30.0, 0.0], [15.0, 20.0], [0.0, 40.0]])),
+            ("along".to_owned(), goals("mm", &[[0.0, 0.0], [15.0, 20.0], [30.0, 40.0]])),
+            ("metres".to_owned(), goals("m", &[[0.0, 0.0], [15.0, 20.0], [30.0, 40.0]])),
+        ]
+    }
+
+    #[test]
+    fn the_action_shown_is_ranked_first_and_units_have_to_match() {
+        let observed = goals("mm", &[[0.0, 1.0], [8.0, 10.0], [15.0, 20.0], [22.0, 30.0], [30.0, 41.0]]);
+        for metric in [Metric::SumOfFeatures, Metric::Multivariate, Metric::Aquila] {
+            let found = recognize(&observed, &candidates(), &RecognizeSpec { metric, threshold: None }).unwrap();
+            assert_eq!(found.recognized.as_deref(), Some("along"), "{metric:?}");
+            assert_eq!(found.matches.len(), 2);
+            assert!(found.matches[0].relative_discrepancy < found.matches[1].relative_discrepancy);
+            assert_eq!(found.incomparable[0].name, "metres");
+            assert_eq!(found.incomparable[0].observed_unit.as_deref(), Some("mm"));
+        }
+    }
+
+    #[test]
+    fn relative_discrepancy_is_the_mean_distance_over_the_size() {
+        // both rows 5 mm off, size 50 mm: 5 / 50
+        let action = vec![("a".to_owned(), goals("mm", &[[0.0, 0.0], [30.0, 40.0]]))];
+        let observed = goals("mm", &[[3.0, 4.0], [33.0, 44.0]]);
+        let spec = RecognizeSpec { metric: Metric::Multivariate, threshold: Some(0.1 + 1e-12) };
+        let found = recognize(&observed, &action, &spec).unwrap();
+        assert!((found.matches[0].discrepancy - 10.0).abs() < 1e-12);
+        assert!((found.matches[0].relative_discrepancy - 0.1).abs() < 1e-12);
+        assert_eq!(found.recognized.as_deref(), Some("a"));
+    }
+
+    #[test]
+    fn something_else_is_unknown() {
+        let observed = goals("mm", &[[500.0, 0.0], [500.0, -90.0], [480.0, -200.0]]);
+        let found = recognize(&observed, &candidates(), &RecognizeSpec::default()).unwrap();
+        assert_eq!(found.recognized, None);
+        assert!(!found.matches[0].within_threshold);
+    }
+
+    #[test]
+    fn columns_are_matched_by_name() {
+        let swapped = Goals::new(
+            vec![Feature::new("y", "mm"), Feature::new("x", "mm")],
+            &[vec![0.0, 0.0], vec![20.0, 15.0], vec![40.0, 30.0]],
+        )
+        .unwrap();
+        let found = recognize(&swapped, &candidates(), &RecognizeSpec::default()).unwrap();
+        assert_eq!(found.matches[0].name, "along");
+        assert!(found.matches[0].discrepancy.abs() < 1e-12);
+        assert_eq!(found.matches[0].path, [[0, 0], [1, 1], [2, 2]]);
+    }
+}
