@@ -3,7 +3,10 @@
 //! Results go to stdout, progress and errors to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage (clap), 78 refused
 //! by a start-up gate.
 
+mod demonstrations;
+mod generalize;
 mod openapi;
+mod recognize;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -18,6 +21,8 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Generalize(generalize::GeneralizeArguments),
+    Recognize(recognize::RecognizeArguments),
     /// Print the OpenAPI 3.1 document of the REST interface.
     Openapi,
 }
@@ -26,6 +31,8 @@ enum Command {
 #[must_use]
 pub fn main(arguments: &Arguments) -> ExitCode {
     let result = match &arguments.command {
+        Command::Generalize(arguments) => generalize::run(arguments),
+        Command::Recognize(arguments) => recognize::run(arguments),
         Command::Openapi => openapi::run(),
     };
     match result {

@@ -43,8 +43,9 @@ pub struct FeatureDiscrepancy {
 /// A discrepancy with all that is known about it.
 pub(super) struct Detailed {
     pub discrepancy: f64,
-    /// What the discrepancy is divided by to be a mean distance of matched rows.
-    pub steps: f64,
+    /// Mean distance of rows and goals matched with standard borders, see [`mean_distance`]; summed over features for
+    /// `sum_of_features`.
+    pub mean_distance: f64,
     /// Joint path; empty for `sum_of_features`.
     pub path: Vec<[u32; 2]>,
     pub features: Vec<FeatureDiscrepancy>,
@@ -65,11 +66,10 @@ pub(super) fn detailed(metric: Metric, observed: &[f64], goals: &[f64], features
         Border::Local => alignment.path.iter().rposition(|&(i, j)| i == 0 || j == 0).unwrap_or(0),
     };
     let mut parts = vec![0.0; m];
-    for &(i, j) in &alignment.path[counted_from..] {
-        let (o, x) = (&observed[i * m..(i + 1) * m], &goals[j * m..(j + 1) * m]);
-        let distance = o.iter().zip(x).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt();
+    for &pair in &alignment.path[counted_from..] {
+        let distance = pair_distance(observed, goals, m, pair);
         if distance > 0.0 {
-            for (part, (o, x)) in parts.iter_mut().zip(o.iter().zip(x)) {
+            for (part, (o, x)) in parts.iter_mut().zip(row(observed, m, pair.0).iter().zip(row(goals, m, pair.1))) {
                 *part += (o - x) * (o - x) / distance;
             }
         }
@@ -81,7 +81,12 @@ pub(super) fn detailed(metric: Metric, observed: &[f64], goals: &[f64], features
     });
     Detailed {
         discrepancy: alignment.distance,
-        steps: (alignment.path.len() - counted_from) as f64,
+        mean_distance: match metric.border() {
+            Border::Accumulated => mean_distance(observed, goals, m, &alignment.path),
+            Border::Local => {
+                mean_distance(observed, goals, m, &dtw::align(observed, goals, m, Border::Accumulated).path)
+            }
+        },
         features: split.collect(),
         path: pairs(&alignment.path),
     }
@@ -90,12 +95,14 @@ pub(super) fn detailed(metric: Metric, observed: &[f64], goals: &[f64], features
 fn sum_of_features(observed: &[f64], goals: &[f64], features: &[Feature]) -> Detailed {
     let m = features.len();
     let rows = (observed.len() + goals.len()) / m;
+    let mut mean = 0.0;
     let split: Vec<FeatureDiscrepancy> = features
         .iter()
         .enumerate()
         .map(|(k, feature)| {
             let (o, x) = (column(observed, m, k), column(goals, m, k));
             let alignment = dtw::align(&o, &x, 1, Border::Accumulated);
+            mean += mean_distance(&o, &x, 1, &alignment.path);
             FeatureDiscrepancy {
                 feature: feature.clone(),
                 discrepancy: alignment.distance / rows as f64,
@@ -105,10 +112,34 @@ fn sum_of_features(observed: &[f64], goals: &[f64], features: &[Feature]) -> Det
         .collect();
     Detailed {
         discrepancy: split.iter().map(|part| part.discrepancy).sum(),
-        steps: 1.0,
+        mean_distance: mean,
         path: Vec::new(),
         features: split,
     }
+}
+
+/// The larger of two means of the distances along a path: each row of the observation counting alike, and each goal
+/// counting alike. The plain mean over the path would let a long observation hide that most goals were never shown.
+fn mean_distance(observed: &[f64], goals: &[f64], m: usize, path: &[(usize, usize)]) -> f64 {
+    let mean_over = |index: fn(&(usize, usize)) -> usize| {
+        let groups: Vec<f64> = path
+            .chunk_by(|a, b| index(a) == index(b))
+            .map(|pairs| {
+                pairs.iter().map(|&pair| pair_distance(observed, goals, m, pair)).sum::<f64>() / pairs.len() as f64
+            })
+            .collect();
+        groups.iter().sum::<f64>() / groups.len() as f64
+    };
+    mean_over(|pair| pair.0).max(mean_over(|pair| pair.1))
+}
+
+fn pair_distance(observed: &[f64], goals: &[f64], m: usize, (i, j): (usize, usize)) -> f64 {
+    let pairs = row(observed, m, i).iter().zip(row(goals, m, j));
+    pairs.map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
+}
+
+fn row(values: &[f64], m: usize, i: usize) -> &[f64] {
+    &values[i * m..(i + 1) * m]
 }
 
 fn column(values: &[f64], features: usize, k: usize) -> Vec<f64> {

@@ -1,10 +1,14 @@
 //! Ranking of an observation against candidate actions, with an open set: none of them is an answer too.
 //!
-//! Symbols: D the discrepancy; K the number of matched pairs that make it (1 for `sum_of_features`, which is
-//! normalised already); R the size of the action, the diagonal of the box around its goals (the sum of the box's sides
-//! for `sum_of_features`; 1 where all goals are equal). The *relative discrepancy* D / (K R) has no unit: 0.1 says that
-//! matched rows are on average a tenth of the action's own size apart. Actions of different features and units can be
-//! ranked by it, and the open set's threshold is in it.
+//! The open set needs a number without unit. The *relative discrepancy* is d / R: d the mean distance of rows and goals
+//! matched by the warping path, the larger of the mean over rows and the mean over goals (so that a long observation
+//! cannot hide goals that were never shown); R the size of the action, the diagonal of the box around its goals (for
+//! `sum_of_features` both are summed over the features' own paths and sides; R is 1 where all goals are equal). 0.1 says
+//! that matched rows are on average a tenth of the action's own size apart. The path is that of standard borders for
+//! `aquila` too, which charges nothing along its borders and may leave most rows of a long recording to one goal.
+//!
+//! Candidates of the same features are ranked by discrepancy; with others among them by relative discrepancy, because
+//! discrepancies over other features and units do not compare.
 
 use super::discrepancy::detailed;
 use super::{FeatureDiscrepancy, Metric};
@@ -14,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 /// Relative discrepancy above which the best candidate is not recognised, where none is given.
-pub const DEFAULT_THRESHOLD: f64 = 0.2;
+pub const DEFAULT_THRESHOLD: f64 = 0.3;
 /// Largest matrix of an observation against goals, cells (8 bytes each).
 const MAX_CELLS: usize = 16 << 20;
 
@@ -24,7 +28,7 @@ const MAX_CELLS: usize = 16 << 20;
 pub struct RecognizeSpec {
     /// How the discrepancy is measured.
     pub metric: Metric,
-    /// Largest relative discrepancy of a recognised action (no unit); 0.2 when absent.
+    /// Largest relative discrepancy of a recognised action (no unit); 0.3 when absent.
     pub threshold: Option<f64>,
 }
 
@@ -37,7 +41,7 @@ pub struct Recognition {
     pub metric: Metric,
     /// The threshold in use, relative discrepancy.
     pub threshold: f64,
-    /// Every comparable candidate, smallest relative discrepancy first; ties by name.
+    /// Every comparable candidate, best first; ties by name.
     pub matches: Vec<Match>,
     /// Candidates that could not be compared, and why.
     pub incomparable: Vec<Incomparable>,
@@ -50,7 +54,7 @@ pub struct Match {
     pub name: String,
     /// D, features' unit.
     pub discrepancy: f64,
-    /// D / (K R), no unit.
+    /// Mean distance of matched rows and goals over the action's size, no unit.
     pub relative_discrepancy: f64,
     /// Whether it is within the threshold.
     pub within_threshold: bool,
@@ -125,9 +129,21 @@ pub fn recognize(
     Ok(Recognition { recognized, metric: spec.metric, threshold, matches, incomparable })
 }
 
+/// Best first: by discrepancy where all have the same features, else by relative discrepancy.
+fn rank(matches: &mut [Match]) {
+    let features = |found: &Match| {
+        let mut names: Vec<String> = found.features.iter().map(|part| part.feature.header()).collect();
+        names.sort();
+        names
+    };
+    let alike = matches.windows(2).all(|pair| features(&pair[0]) == features(&pair[1]));
+    let key = |found: &Match| if alike { found.discrepancy } else { found.relative_discrepancy };
+    matches.sort_by(|a, b| key(a).total_cmp(&key(b)).then_with(|| a.name.cmp(&b.name)));
+}
+
 fn compare(name: &str, rows: &[f64], goals: &Goals, metric: Metric, threshold: f64) -> Match {
     let found = detailed(metric, rows, goals.values(), goals.features());
-    let relative_discrepancy = found.discrepancy / (found.steps * size(goals, metric));
+    let relative_discrepancy = found.mean_distance / size(goals, metric);
     Match {
         name: name.to_owned(),
         discrepancy: found.discrepancy,
@@ -212,6 +228,29 @@ mod tests {
         let found = recognize(&observed, &candidates(), &RecognizeSpec::default()).unwrap();
         assert_eq!(found.recognized, None);
         assert!(!found.matches[0].within_threshold);
+    }
+
+    #[test]
+    fn actions_of_other_features_are_ranked_by_relative_discrepancy() {
+        let x_only = Goals::new(vec![Feature::new("x", "mm")], &[vec![0.0], vec![1.0]]).unwrap();
+        let mut actions = candidates();
+        actions.truncate(2);
+        actions.push(("small".to_owned(), x_only));
+        let observed = goals("mm", &[[1.0, 3.0], [15.0, 24.0], [30.0, 44.0]]);
+        let found = recognize(&observed, &actions, &RecognizeSpec::default()).unwrap();
+        assert_eq!(found.matches[0].name, "along");
+        let mut relative: Vec<f64> = found.matches.iter().map(|m| m.relative_discrepancy).collect();
+        assert!(relative.is_sorted());
+        relative.dedup();
+        assert_eq!(relative.len(), 3);
+    }
+
+    #[test]
+    fn a_long_rest_at_the_first_goal_is_not_the_action() {
+        let rest = goals("mm", &[[0.0, 0.0]; 500]);
+        let found = recognize(&rest, &candidates(), &RecognizeSpec::default()).unwrap();
+        assert_eq!(found.recognized, None);
+        assert!((found.matches[0].relative_discrepancy - (25.0 + 50.0) / 3.0 / 50.0).abs() < 1e-12);
     }
 
     #[test]

@@ -1,0 +1,78 @@
+//! `cgda generalize`: demonstrations in, goals out.
+
+use super::demonstrations::{ReadArguments, read_demonstrations};
+use crate::framework::generalization::{GeneralizeSpec, Generalized, Weighting, generalize, goals_to_csv};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// Generalize demonstrations to the goals of an action.
+#[derive(Debug, clap::Args)]
+pub struct GeneralizeArguments {
+    /// Demonstrations: a file is one of a single stream, a directory one of a stream in each file.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Time of one goal; n = mean duration / this.
+    #[arg(long, value_name = "SECONDS")]
+    t_min: f64,
+    /// Whether each demonstration counts alike, or each sample.
+    #[arg(long, value_enum, default_value_t = Weighting::PerDemonstration)]
+    weighting: Weighting,
+    /// Feature to keep; may be repeated, all when absent.
+    #[arg(long = "feature", value_name = "NAME")]
+    features: Vec<String>,
+    /// Print CSV: header first, one row a goal, one column a feature.
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+    /// Print JSON: goals, spread, durations.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    read: ReadArguments,
+}
+
+/// Prints the goals of the demonstrations.
+///
+/// # Errors
+/// Refused files, demonstrations that do not fit together, a closed stdout.
+pub fn run(arguments: &GeneralizeArguments) -> anyhow::Result<()> {
+    let demonstrations = read_demonstrations(&arguments.files, &arguments.read)?;
+    let features = (!arguments.features.is_empty()).then(|| arguments.features.clone());
+    let spec = GeneralizeSpec { t_min_s: arguments.t_min, weighting: arguments.weighting, features };
+    let generalized = generalize(&demonstrations, &spec)?;
+    if generalized.interpolated_bins > 0 {
+        eprintln!("{} bins without a sample were interpolated in time", generalized.interpolated_bins);
+    }
+    let text = if arguments.csv {
+        goals_to_csv(&generalized.goals)
+    } else if arguments.json {
+        format!("{}\n", serde_json::to_string_pretty(&generalized)?)
+    } else {
+        table(&generalized)
+    };
+    std::io::stdout().lock().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+/// Goals with their spread, for people.
+fn table(generalized: &Generalized) -> String {
+    let goals = &generalized.goals;
+    let mut text = format!(
+        "{} goals from {} demonstrations of {:.2} s on average (value +- standard deviation over demonstrations)\n",
+        goals.len(),
+        generalized.durations_s.len(),
+        generalized.mean_duration_s
+    );
+    let _ = write!(text, "{:>5}", "goal");
+    for feature in goals.features() {
+        let _ = write!(text, "  {:>24}", feature.header());
+    }
+    for (index, (row, spread)) in goals.rows().zip(&generalized.spread).enumerate() {
+        let _ = write!(text, "\n{:>5}", index + 1);
+        for (value, deviation) in row.iter().zip(spread) {
+            let _ = write!(text, "  {:>24}", format!("{value:.4} +- {deviation:.4}"));
+        }
+    }
+    text.push('\n');
+    text
+}
