@@ -20,8 +20,9 @@ pub async fn wrap(request: Request, next: Next) -> Response {
     let started = Instant::now();
     let id = request_id(&request);
     let (method, path) = (request.method().clone(), request.uri().path().to_owned());
+    let grpc = request.headers().get(CONTENT_TYPE).is_some_and(|v| v.as_bytes().starts_with(b"application/grpc"));
     let answer = next.run(request).await;
-    let mut response = as_problem(answer, &id);
+    let mut response = as_problem(answer, &id, grpc);
     if let Ok(value) = HeaderValue::from_str(&id) {
         response.headers_mut().insert(REQUEST_ID, value);
     }
@@ -53,7 +54,7 @@ fn request_id(request: &Request) -> String {
     given.map_or_else(|| uuid::Uuid::new_v4().simple().to_string(), str::to_owned)
 }
 
-fn as_problem(mut response: Response, id: &str) -> Response {
+fn as_problem(mut response: Response, id: &str, grpc: bool) -> Response {
     let status = response.status();
     let problem = match response.extensions_mut().remove::<Problem>() {
         Some(problem) => problem,
@@ -62,6 +63,9 @@ fn as_problem(mut response: Response, id: &str) -> Response {
     };
     if let Some(source) = &problem.error.source {
         tracing::error!(request.id = %id, error = %source, error.code = problem.error.code, "failed");
+    }
+    if grpc {
+        return super::grpc_status("13");
     }
     let mut rendered = problem.render(id);
     if let Some(allow) = response.headers_mut().remove(ALLOW) {

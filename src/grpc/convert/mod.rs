@@ -1,0 +1,178 @@
+//! Between messages and the service's own types: one file a resource; here what several share.
+//!
+//! # Architecture Invariants
+//! - A message is checked where JSON would have been: ids, enumerations, lengths of vectors, finite numbers.
+//! - What is wrong is named by the JSON pointer the same field has over HTTP.
+
+pub mod action;
+pub mod demonstration;
+pub mod event;
+pub mod job;
+pub mod recognition;
+pub mod robot;
+pub mod run;
+pub mod trajectory;
+pub mod work;
+pub mod world;
+
+use super::proto;
+use crate::app::id::IdError;
+use crate::app::{AppError, ErrorKind, FieldError, Page, PageQuery};
+use crate::framework::Feature;
+use crate::framework::recognition::Metric;
+use std::str::FromStr;
+
+/// The id that names the resource of a call; one that can be nobody's is not found.
+pub fn id<T: FromStr<Err = IdError>>(text: &str) -> Result<T, AppError> {
+    text.parse().map_err(|error: IdError| AppError::new(ErrorKind::NotFound, "not_found", error.to_string()))
+}
+
+/// An id inside a request.
+pub fn reference<T: FromStr<Err = IdError>>(pointer: &str, text: &str) -> Result<T, AppError> {
+    text.parse().map_err(|error: IdError| AppError::field(pointer, "invalid_value", error.to_string()))
+}
+
+/// Ids inside a request.
+pub fn references<T: FromStr<Err = IdError>>(pointer: &str, texts: &[String]) -> Result<Vec<T>, AppError> {
+    texts.iter().enumerate().map(|(i, text)| reference(&format!("{pointer}/{i}"), text)).collect()
+}
+
+/// A message that must be there.
+pub fn required<T>(pointer: &str, value: Option<T>) -> Result<T, AppError> {
+    value.ok_or_else(|| AppError::field(pointer, "missing", "this field is required"))
+}
+
+/// A number that JSON could hold.
+pub fn finite(pointer: &str, value: f64) -> Result<f64, AppError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(AppError::field(pointer, "non_finite", format!("{value} is not a finite number")))
+}
+
+/// A number that JSON could hold, or none.
+pub fn finite_or_none(pointer: &str, value: Option<f64>) -> Result<Option<f64>, AppError> {
+    value.map(|value| finite(pointer, value)).transpose()
+}
+
+/// Three coordinates.
+pub fn triple(pointer: &str, values: &[f64]) -> Result<[f64; 3], AppError> {
+    let found: [f64; 3] = values.try_into().map_err(|_| {
+        AppError::field(pointer, "invalid_length", format!("{} values where 3 are needed: x, y, z", values.len()))
+    })?;
+    values.iter().try_for_each(|value| finite(pointer, *value).map(drop))?;
+    Ok(found)
+}
+
+/// Rows of finite numbers.
+pub fn rows(pointer: &str, rows: Vec<proto::Row>) -> Result<Vec<Vec<f64>>, AppError> {
+    let row = |(i, row): (usize, proto::Row)| {
+        row.values.iter().enumerate().try_for_each(|(j, value)| {
+            let place = format!("{pointer}/{i}/{j}");
+            finite(&place, *value).map(drop)
+        })?;
+        Ok(row.values)
+    };
+    rows.into_iter().enumerate().map(row).collect()
+}
+
+/// An empty text is an absent one.
+pub fn text(value: String) -> Option<String> {
+    if value.is_empty() { None } else { Some(value) }
+}
+
+/// An empty list is an absent one.
+pub fn list<T>(values: Vec<T>) -> Option<Vec<T>> {
+    if values.is_empty() { None } else { Some(values) }
+}
+
+/// A page of a list; 0 is no size.
+pub fn page(page_size: u32, page_token: String) -> PageQuery {
+    PageQuery { page_size: if page_size == 0 { None } else { Some(page_size) }, page_token: text(page_token) }
+}
+
+/// The items and the token of a page.
+pub fn items<T, M: From<T>>(page: Page<T>) -> (Vec<M>, String) {
+    (page.items.into_iter().map(M::from).collect(), page.next_page_token)
+}
+
+/// The metric, or the default.
+pub fn metric(pointer: &str, value: i32) -> Result<Metric, AppError> {
+    match proto::Metric::try_from(value) {
+        Ok(proto::Metric::Unspecified) => Ok(Metric::default()),
+        Ok(proto::Metric::SumOfFeatures) => Ok(Metric::SumOfFeatures),
+        Ok(proto::Metric::Multivariate) => Ok(Metric::Multivariate),
+        Ok(proto::Metric::Aquila) => Ok(Metric::Aquila),
+        Err(_) => Err(AppError::field(pointer, "invalid_value", format!("{value} is no metric"))),
+    }
+}
+
+impl From<Metric> for proto::Metric {
+    fn from(metric: Metric) -> Self {
+        match metric {
+            Metric::SumOfFeatures => Self::SumOfFeatures,
+            Metric::Multivariate => Self::Multivariate,
+            Metric::Aquila => Self::Aquila,
+        }
+    }
+}
+
+impl From<Feature> for proto::Feature {
+    fn from(feature: Feature) -> Self {
+        Self { name: feature.name, unit: feature.unit }
+    }
+}
+
+impl From<proto::Feature> for Feature {
+    fn from(feature: proto::Feature) -> Self {
+        Self { name: feature.name, unit: feature.unit }
+    }
+}
+
+impl From<Vec<f64>> for proto::Row {
+    fn from(values: Vec<f64>) -> Self {
+        Self { values }
+    }
+}
+
+impl From<FieldError> for proto::Finding {
+    fn from(error: FieldError) -> Self {
+        Self { pointer: error.pointer, code: error.code, detail: error.detail }
+    }
+}
+
+/// The same values as messages.
+pub fn all<T, M: From<T>>(values: Vec<T>) -> Vec<M> {
+    values.into_iter().map(M::from).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::id::JobId;
+
+    #[test]
+    fn what_json_could_not_hold_is_refused_at_its_pointer() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let error = rows("/rows", vec![vec![0.0].into(), vec![1.0, value].into()]).unwrap_err();
+            assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/rows/1/1"));
+            assert!(triple("/origin_m", &[0.0, value, 0.0]).is_err());
+        }
+        assert!(triple("/origin_m", &[0.0, 1.0]).is_err());
+        assert_eq!(triple("/origin_m", &[0.0, 1.0, -2.0]).unwrap(), [0.0, 1.0, -2.0]);
+        assert_eq!(metric("/metric", 99).unwrap_err().kind, ErrorKind::Invalid);
+    }
+
+    #[test]
+    fn an_id_of_a_call_is_not_found_and_one_in_a_request_is_invalid() {
+        assert_eq!(id::<JobId>("nobody").unwrap_err().kind, ErrorKind::NotFound);
+        assert_eq!(reference::<JobId>("/job", "nobody").unwrap_err().kind, ErrorKind::Invalid);
+    }
+
+    #[test]
+    fn every_metric_survives() {
+        for value in [Metric::SumOfFeatures, Metric::Multivariate, Metric::Aquila] {
+            assert_eq!(metric("", proto::Metric::from(value) as i32).unwrap(), value);
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Robots.
+
+use super::{all, finite, list, triple};
+use crate::app::AppError;
+use crate::app::robots::{CreateRobot, JointSummary, RobotSummary, RobotView};
+use crate::framework::robot::RobotSpec;
+use crate::grpc::proto;
+use std::collections::BTreeMap;
+
+/// A new robot.
+pub fn create(request: proto::CreateRobotRequest) -> Result<CreateRobot, AppError> {
+    let spec = request.spec.map(spec).transpose()?.unwrap_or_default();
+    Ok(CreateRobot { name: request.name, urdf: request.urdf, spec })
+}
+
+fn spec(spec: proto::RobotSpec) -> Result<RobotSpec, AppError> {
+    let limit = |(joint, limits): (String, proto::JointLimits)| {
+        let pointer = format!("/spec/limits/{joint}");
+        Ok((joint, [finite(&pointer, limits.lower)?, finite(&pointer, limits.upper)?]))
+    };
+    let limits = spec.limits.into_iter().map(limit).collect::<Result<_, AppError>>()?;
+    Ok(RobotSpec {
+        base_link: spec.base_link,
+        tip_link: spec.tip_link,
+        free_joints: list(spec.free_joints),
+        fixed: values("/spec/fixed", spec.fixed)?,
+        tool_offset_m: if spec.tool_offset_m.is_empty() {
+            [0.0; 3]
+        } else {
+            triple("/spec/tool_offset_m", &spec.tool_offset_m)?
+        },
+        limits,
+        acceleration: values("/spec/acceleration", spec.acceleration)?,
+    })
+}
+
+fn values(pointer: &str, values: BTreeMap<String, f64>) -> Result<BTreeMap<String, f64>, AppError> {
+    values.iter().try_for_each(|(joint, value)| finite(&format!("{pointer}/{joint}"), *value).map(drop))?;
+    Ok(values)
+}
+
+impl From<RobotSpec> for proto::RobotSpec {
+    fn from(spec: RobotSpec) -> Self {
+        let limits = spec.limits.into_iter();
+        Self {
+            base_link: spec.base_link,
+            tip_link: spec.tip_link,
+            free_joints: spec.free_joints.unwrap_or_default(),
+            fixed: spec.fixed,
+            tool_offset_m: spec.tool_offset_m.to_vec(),
+            limits: limits.map(|(joint, [lower, upper])| (joint, proto::JointLimits { lower, upper })).collect(),
+            acceleration: spec.acceleration,
+        }
+    }
+}
+
+impl From<RobotView> for proto::Robot {
+    fn from(view: RobotView) -> Self {
+        Self {
+            id: view.id.into(),
+            name: view.name,
+            version: view.version,
+            spec: Some(view.spec.into()),
+            summary: Some(view.summary.into()),
+            urdf_sha256: view.urdf_sha256,
+            created_at_ms: view.created_at.0,
+        }
+    }
+}
+
+impl From<RobotSummary> for proto::RobotSummary {
+    fn from(summary: RobotSummary) -> Self {
+        Self {
+            links: summary.links,
+            base_link: summary.base_link,
+            tip_link: summary.tip_link,
+            joints: all(summary.joints),
+        }
+    }
+}
+
+impl From<JointSummary> for proto::JointSummary {
+    fn from(joint: JointSummary) -> Self {
+        Self {
+            name: joint.name,
+            kind: joint.kind,
+            free: joint.free,
+            lower: joint.lower,
+            upper: joint.upper,
+            velocity: joint.velocity,
+            acceleration: joint.acceleration,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spec_survives_the_wire() {
+        let full = RobotSpec {
+            base_link: Some("base".to_owned()),
+            tip_link: Some("hand".to_owned()),
+            free_joints: Some(vec!["a".to_owned(), "b".to_owned()]),
+            fixed: BTreeMap::from([("c".to_owned(), -0.7)]),
+            tool_offset_m: [0.0, 0.1, -0.2],
+            limits: BTreeMap::from([("a".to_owned(), [-1.0, 2.0])]),
+            acceleration: BTreeMap::from([("a".to_owned(), 3.0)]),
+        };
+        for before in [full, RobotSpec::default()] {
+            assert_eq!(spec(before.clone().into()).unwrap(), before);
+        }
+        assert_eq!(spec(proto::RobotSpec::default()).unwrap(), RobotSpec::default());
+    }
+
+    #[test]
+    fn infinite_limits_are_refused_by_joint() {
+        let limits = proto::JointLimits { lower: f64::NEG_INFINITY, upper: 0.0 };
+        let wrong = proto::RobotSpec { limits: BTreeMap::from([("a".to_owned(), limits)]), ..Default::default() };
+        assert_eq!(spec(wrong).unwrap_err().details[0].pointer, "/spec/limits/a");
+    }
+}

@@ -1,0 +1,54 @@
+//! Runs.
+
+use super::all;
+use crate::app::runs::{RunGoal, RunGoals, RunView};
+use crate::grpc::proto;
+
+impl From<RunView> for proto::Run {
+    fn from(view: RunView) -> Self {
+        Self {
+            id: view.id.into(),
+            job: view.job.into(),
+            repetition: view.repetition,
+            action: view.action.into(),
+            robot: view.robot.into(),
+            world: view.world.into(),
+            method: view.method,
+            metric: proto::Metric::from(view.metric) as i32,
+            seed: view.seed,
+            evaluations: view.evaluations,
+            discrepancy: view.discrepancy,
+            painted_percent: view.painted_percent,
+            goals: view.goals,
+            digest: view.digest,
+            trajectory: view.trajectory.map(Into::into),
+            trajectory_problem: view.trajectory_problem,
+            created_at_ms: view.created_at.0,
+        }
+    }
+}
+
+impl From<RunGoals> for proto::RunGoals {
+    fn from(view: RunGoals) -> Self {
+        Self {
+            run: view.run.into(),
+            features: all(view.features),
+            joint_names: view.joint_names,
+            goals: all(view.goals),
+        }
+    }
+}
+
+impl From<RunGoal> for proto::RunGoal {
+    fn from(goal: RunGoal) -> Self {
+        Self {
+            index: goal.index,
+            evaluations: goal.evaluations,
+            discrepancy: goal.discrepancy,
+            stop_reason: goal.stop_reason,
+            joints: goal.joints,
+            observation: goal.observation,
+            goal: goal.goal,
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! What a job does: the request, in and out.
+
+use super::{finite, finite_or_none, list, metric, reference, references, required, text};
+use crate::app::AppError;
+use crate::app::jobs::{CreateJob, ExecutionRequest, GeneralizationRequest};
+use crate::framework::execution::ExecutionSpec;
+use crate::framework::optimizer::{MethodSpec, SstSpec};
+use crate::grpc::proto;
+use proto::execution_spec::Method;
+use proto::work::Kind;
+
+/// The work of a request.
+pub fn work(work: Option<proto::Work>) -> Result<CreateJob, AppError> {
+    match required("/kind", work.and_then(|work| work.kind))? {
+        Kind::Generalization(work) => generalization(work).map(CreateJob::Generalization),
+        Kind::Execution(work) => execution(work).map(CreateJob::Execution),
+    }
+}
+
+/// A generalization.
+pub fn generalization(work: proto::Generalization) -> Result<GeneralizationRequest, AppError> {
+    Ok(GeneralizationRequest {
+        name: work.name,
+        demonstrations: references("/demonstrations", &work.demonstrations)?,
+        t_min_s: finite("/t_min_s", work.t_min_s)?,
+        weighting: weighting(work.weighting)?.to_owned(),
+        features: list(work.features),
+        metric: metric("/metric", work.metric)?,
+    })
+}
+
+fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
+    Ok(ExecutionRequest {
+        name: work.name.and_then(text),
+        action: reference("/action", &work.action)?,
+        robot: reference("/robot", &work.robot)?,
+        world: reference("/world", &work.world)?,
+        execution: spec(required("/execution", work.execution)?)?,
+        seed: work.seed,
+        repetitions: if work.repetitions == 0 { 1 } else { work.repetitions },
+        max_evaluations_per_s: finite_or_none("/max_evaluations_per_s", work.max_evaluations_per_s)?,
+    })
+}
+
+fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
+    let Method::Sst(sst) = required("/execution/method", spec.method)?;
+    Ok(ExecutionSpec {
+        method: MethodSpec::Sst(tournament(&sst)?),
+        metric: metric("/execution/metric", spec.metric)?,
+        target_discrepancy: finite_or_none("/execution/target_discrepancy", spec.target_discrepancy)?,
+        tolerance: finite_or_none("/execution/tolerance", spec.tolerance)?,
+        max_evaluations_per_goal: spec.max_evaluations_per_goal,
+        rounding_noise: finite("/execution/rounding_noise", spec.rounding_noise)?,
+    })
+}
+
+fn tournament(sst: &proto::SteadyStateTournament) -> Result<SstSpec, AppError> {
+    let default = SstSpec::default();
+    let probability = sst.mutation_probability.unwrap_or(default.mutation_probability);
+    Ok(SstSpec {
+        population: sst.population.unwrap_or(default.population),
+        stagnation: sst.stagnation.unwrap_or(default.stagnation),
+        mutation_probability: finite("/execution/method/mutation_probability", probability)?,
+        ecf_gene0_quirk: sst.ecf_gene0_quirk.unwrap_or(default.ecf_gene0_quirk),
+    })
+}
+
+fn weighting(value: i32) -> Result<&'static str, AppError> {
+    match proto::Weighting::try_from(value) {
+        Ok(proto::Weighting::Unspecified | proto::Weighting::PerDemonstration) => Ok("per_demonstration"),
+        Ok(proto::Weighting::PerSample) => Ok("per_sample"),
+        Err(_) => Err(AppError::field("/weighting", "invalid_value", format!("{value} is no weighting"))),
+    }
+}
+
+/// The weighting of that name.
+pub fn weighting_message(name: &str) -> proto::Weighting {
+    match name {
+        "per_sample" => proto::Weighting::PerSample,
+        "per_demonstration" => proto::Weighting::PerDemonstration,
+        _ => proto::Weighting::Unspecified,
+    }
+}
+
+impl From<CreateJob> for proto::Work {
+    fn from(work: CreateJob) -> Self {
+        let kind = match work {
+            CreateJob::Generalization(work) => Kind::Generalization(work.into()),
+            CreateJob::Execution(work) => Kind::Execution(work.into()),
+        };
+        Self { kind: Some(kind) }
+    }
+}
+
+impl From<GeneralizationRequest> for proto::Generalization {
+    fn from(work: GeneralizationRequest) -> Self {
+        Self {
+            name: work.name,
+            demonstrations: work.demonstrations.into_iter().map(String::from).collect(),
+            t_min_s: work.t_min_s,
+            weighting: weighting_message(&work.weighting) as i32,
+            features: work.features.unwrap_or_default(),
+            metric: proto::Metric::from(work.metric) as i32,
+        }
+    }
+}
+
+impl From<ExecutionRequest> for proto::Execution {
+    fn from(work: ExecutionRequest) -> Self {
+        Self {
+            name: work.name,
+            action: work.action.into(),
+            robot: work.robot.into(),
+            world: work.world.into(),
+            execution: Some(work.execution.into()),
+            seed: work.seed,
+            repetitions: work.repetitions,
+            max_evaluations_per_s: work.max_evaluations_per_s,
+        }
+    }
+}
+
+impl From<ExecutionSpec> for proto::ExecutionSpec {
+    fn from(spec: ExecutionSpec) -> Self {
+        let MethodSpec::Sst(sst) = spec.method;
+        let sst = proto::SteadyStateTournament {
+            population: Some(sst.population),
+            stagnation: Some(sst.stagnation),
+            mutation_probability: Some(sst.mutation_probability),
+            ecf_gene0_quirk: Some(sst.ecf_gene0_quirk),
+        };
+        Self {
+            method: Some(Method::Sst(sst)),
+            metric: proto::Metric::from(spec.metric) as i32,
+            target_discrepancy: spec.target_discrepancy,
+            tolerance: spec.tolerance,
+            max_evaluations_per_goal: spec.max_evaluations_per_goal,
+            rounding_noise: spec.rounding_noise,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::ErrorKind;
+
+    fn request(json: serde_json::Value) -> CreateJob {
+        serde_json::from_value(json).unwrap()
+    }
+
+    #[test]
+    fn a_request_survives_the_wire() {
+        let id = "0".repeat(32);
+        for json in [
+            serde_json::json!({"kind": "generalization", "name": "wax", "demonstrations": [format!("dem_{id}")],
+                "t_min_s": 2.5, "weighting": "per_sample", "features": ["x"], "metric": "aquila"}),
+            serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
+                "world": format!("wld_{id}"), "seed": 7, "repetitions": 3, "execution": {"tolerance": 5.0,
+                "method": {"name": "sst", "population": 10, "stagnation": 4, "ecf_gene0_quirk": true}}}),
+        ] {
+            let before = request(json);
+            assert_eq!(work(Some(before.clone().into())).unwrap(), before);
+        }
+    }
+
+    #[test]
+    fn absent_fields_have_the_same_defaults_as_in_json() {
+        let id = "0".repeat(32);
+        let (action, robot, world) = (format!("act_{id}"), format!("rob_{id}"), format!("wld_{id}"));
+        let json = request(serde_json::json!({"kind": "execution", "action": action, "robot": robot, "world": world,
+            "execution": {"method": {"name": "sst"}}}));
+        let sst = Method::Sst(proto::SteadyStateTournament::default());
+        let spec = proto::ExecutionSpec { method: Some(sst), ..Default::default() };
+        let message = proto::Execution { action, robot, world, execution: Some(spec), ..Default::default() };
+        assert_eq!(work(Some(proto::Work { kind: Some(Kind::Execution(message)) })).unwrap(), json);
+    }
+
+    #[test]
+    fn what_is_missing_or_wrong_is_named() {
+        let error = work(None).unwrap_err();
+        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/kind"));
+        let wrong = proto::Generalization { t_min_s: f64::NAN, ..Default::default() };
+        assert_eq!(generalization(wrong).unwrap_err().details[0].pointer, "/t_min_s");
+        let wrong = proto::Generalization { weighting: 9, ..Default::default() };
+        assert_eq!(generalization(wrong).unwrap_err().details[0].pointer, "/weighting");
+    }
+}

@@ -1,0 +1,153 @@
+//! DemonstrationService.
+
+use super::convert::demonstration::header;
+use super::convert::{id, items, page};
+use super::error::status;
+use super::proto;
+use crate::app::demonstrations::{UploadDemonstration, UploadFile};
+use crate::app::{App, AppError, ErrorKind};
+use proto::demonstration_service_server::DemonstrationService;
+use proto::upload_request::Part;
+use tonic::{Request, Response, Status, Streaming};
+
+/// Most files of one upload.
+const MAX_FILES: usize = 64;
+
+/// The service.
+pub struct Service {
+    /// The use-cases.
+    pub app: App,
+    /// Most bytes of one upload.
+    pub upload_limit_bytes: usize,
+}
+
+#[tonic::async_trait]
+impl DemonstrationService for Service {
+    async fn upload(
+        &self,
+        request: Request<Streaming<proto::UploadRequest>>,
+    ) -> Result<Response<proto::Demonstration>, Status> {
+        let upload = self.receive(request.into_inner()).await?;
+        let view = self.app.upload_demonstration(upload).await.map_err(status)?;
+        Ok(Response::new(view.into()))
+    }
+
+    async fn get_demonstration(
+        &self,
+        request: Request<proto::GetDemonstrationRequest>,
+    ) -> Result<Response<proto::Demonstration>, Status> {
+        let id = id(&request.into_inner().id).map_err(status)?;
+        let view = self.app.get_demonstration(&id).await.map_err(status)?;
+        Ok(Response::new(view.into()))
+    }
+
+    async fn list_demonstrations(
+        &self,
+        request: Request<proto::ListDemonstrationsRequest>,
+    ) -> Result<Response<proto::ListDemonstrationsResponse>, Status> {
+        let request = request.into_inner();
+        let found = self.app.list_demonstrations(page(request.page_size, request.page_token)).await.map_err(status)?;
+        let (demonstrations, next_page_token) = items(found);
+        Ok(Response::new(proto::ListDemonstrationsResponse { demonstrations, next_page_token }))
+    }
+
+    async fn get_demonstration_report(
+        &self,
+        request: Request<proto::GetDemonstrationReportRequest>,
+    ) -> Result<Response<proto::DemonstrationReport>, Status> {
+        let id = id(&request.into_inner().id).map_err(status)?;
+        let report = self.app.demonstration_report(&id).await.map_err(status)?;
+        Ok(Response::new(report.into()))
+    }
+}
+
+impl Service {
+    async fn receive(&self, mut parts: Streaming<proto::UploadRequest>) -> Result<UploadDemonstration, Status> {
+        let mut assembly = Assembly::new(self.upload_limit_bytes);
+        while let Some(request) = parts.message().await? {
+            assembly.take(request.part).map_err(status)?;
+        }
+        assembly.finish().map_err(status)
+    }
+}
+
+/// An upload, part by part.
+struct Assembly {
+    header: Option<proto::UploadHeader>,
+    files: Vec<UploadFile>,
+    limit: usize,
+    received: usize,
+}
+
+impl Assembly {
+    fn new(limit: usize) -> Self {
+        Self { header: None, files: Vec::new(), limit, received: 0 }
+    }
+
+    fn take(&mut self, part: Option<Part>) -> Result<(), AppError> {
+        match part {
+            Some(Part::Header(header)) if self.header.is_none() && self.files.is_empty() => self.header = Some(header),
+            Some(Part::FileName(file_name)) if self.header.is_some() => {
+                if self.files.len() == MAX_FILES {
+                    let message = format!("an upload holds at most {MAX_FILES} files");
+                    return Err(AppError::new(ErrorKind::TooLarge, "too_many_files", message));
+                }
+                self.files.push(UploadFile { file_name, bytes: Vec::new() });
+            }
+            Some(Part::Content(content)) => {
+                let file = self.files.last_mut().ok_or_else(out_of_order)?;
+                self.received += content.len();
+                if self.received > self.limit {
+                    let message = format!(
+                        "the upload is larger than the limit of {} bytes: split it, or raise the limit",
+                        self.limit
+                    );
+                    return Err(AppError::new(ErrorKind::TooLarge, "body_too_large", message));
+                }
+                file.bytes.extend_from_slice(&content);
+            }
+            _ => return Err(out_of_order()),
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<UploadDemonstration, AppError> {
+        let (name, options) = header(self.header.ok_or_else(out_of_order)?);
+        Ok(UploadDemonstration { name, files: self.files, options })
+    }
+}
+
+fn out_of_order() -> AppError {
+    let message = "send one header, then for each file its name and then its content";
+    AppError::new(ErrorKind::Malformed, "out_of_order", message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assemble(parts: Vec<Part>) -> Result<UploadDemonstration, &'static str> {
+        let mut assembly = Assembly::new(10);
+        parts.into_iter().try_for_each(|part| assembly.take(Some(part))).map_err(|error| error.code)?;
+        assembly.finish().map_err(|error| error.code)
+    }
+
+    #[test]
+    fn files_are_put_together_in_order_and_within_the_limit() {
+        let header = || Part::Header(proto::UploadHeader::default());
+        let name = |name: &str| Part::FileName(name.to_owned());
+        let content = |text: &str| Part::Content(text.as_bytes().to_vec());
+        let upload = assemble(vec![header(), name("a"), content("12"), content("3"), name("b"), content("4")]).unwrap();
+        let files: Vec<(&str, &[u8])> =
+            upload.files.iter().map(|f| (f.file_name.as_str(), f.bytes.as_slice())).collect();
+        assert_eq!(files, [("a", &b"123"[..]), ("b", &b"4"[..])]);
+        for wrong in
+            [vec![], vec![name("a")], vec![content("1")], vec![header(), content("1")], vec![header(), header()]]
+        {
+            assert_eq!(assemble(wrong).unwrap_err(), "out_of_order");
+        }
+        let large = vec![header(), name("a"), content("123456"), name("b"), content("12345")];
+        assert_eq!(assemble(large).unwrap_err(), "body_too_large");
+        assert_eq!(Assembly::new(1).take(None).unwrap_err().code, "out_of_order");
+    }
+}

@@ -1,0 +1,74 @@
+//! What each kind of error is over gRPC: one exhaustive match, with the details of google.rpc.
+
+use crate::app::{AppError, ErrorKind};
+use std::collections::HashMap;
+use std::time::Duration;
+use tonic::{Code, Status};
+use tonic_types::{ErrorDetails, FieldViolation, StatusExt as _};
+
+/// `domain` of every ErrorInfo.
+pub const DOMAIN: &str = "cgda";
+
+/// The code of an error kind.
+#[must_use]
+pub fn code(kind: ErrorKind) -> Code {
+    match kind {
+        ErrorKind::Malformed | ErrorKind::Invalid => Code::InvalidArgument,
+        ErrorKind::NotFound => Code::NotFound,
+        ErrorKind::Conflict => Code::FailedPrecondition,
+        ErrorKind::Precondition => Code::Aborted,
+        ErrorKind::TooLarge | ErrorKind::Exhausted => Code::ResourceExhausted,
+        ErrorKind::Unauthenticated => Code::Unauthenticated,
+        ErrorKind::Forbidden => Code::PermissionDenied,
+        ErrorKind::Unavailable => Code::Unavailable,
+        ErrorKind::Internal => Code::Internal,
+    }
+}
+
+/// The status with ErrorInfo (`reason` is the error's code), BadRequest (`field` is the JSON pointer) and RetryInfo;
+/// what failed underneath is logged here, once.
+pub fn status(error: AppError) -> Status {
+    if let Some(source) = &error.source {
+        tracing::error!(error = %source, error.code = error.code, "failed");
+    }
+    let mut details = ErrorDetails::with_error_info(error.code, DOMAIN, HashMap::<String, String>::new());
+    if !error.details.is_empty() {
+        let violations: Vec<FieldViolation> = error.details.iter().map(violation).collect();
+        details.set_bad_request(violations);
+    }
+    if matches!(error.kind, ErrorKind::Exhausted | ErrorKind::Unavailable) {
+        let seconds = error.retry_after_s.unwrap_or(1);
+        details.set_retry_info(Some(Duration::from_secs(u64::from(seconds))));
+    }
+    Status::with_error_details(code(error.kind), error.message, details)
+}
+
+fn violation(field: &crate::app::FieldError) -> FieldViolation {
+    let mut violation = FieldViolation::new(&field.pointer, &field.detail);
+    violation.reason.clone_from(&field.code);
+    violation
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::FieldError;
+
+    #[test]
+    fn the_code_the_places_and_the_delay_are_in_the_details() {
+        let mut error = AppError::invalid(vec![FieldError::new("/rows/3/x", "non_finite", "x is nan")]);
+        error.code = "bad_data";
+        let details = status(error).get_error_details();
+        assert_eq!(details.error_info().unwrap().reason, "bad_data");
+        assert_eq!(details.bad_request().unwrap().field_violations[0].field, "/rows/3/x");
+        assert!(details.retry_info().is_none());
+        let retry = status(AppError::unavailable("busy", "busy")).get_error_details();
+        assert_eq!(retry.retry_info().unwrap().retry_delay, Some(Duration::from_secs(1)));
+    }
+
+    #[test]
+    fn the_cause_stays_inside() {
+        let status = status(AppError::internal("password 123"));
+        assert!(!format!("{status:?}").contains("123"));
+    }
+}

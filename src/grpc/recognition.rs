@@ -1,0 +1,81 @@
+//! RecognitionService.
+
+use super::convert::recognition::{question, request};
+use super::convert::{all, rows};
+use super::error::status;
+use super::proto;
+use crate::app::recognitions::Observed;
+use crate::app::{App, AppError, ErrorKind};
+use crate::framework::Feature;
+use futures_util::StreamExt as _;
+use futures_util::stream::{BoxStream, try_unfold};
+use proto::recognition_service_server::RecognitionService;
+use proto::recognize_online_request::Part;
+use tonic::{Request, Response, Status, Streaming};
+
+/// Most rows of one online recognition.
+const MAX_ROWS: usize = 100_000;
+
+/// The service.
+pub struct Service(pub App);
+
+#[tonic::async_trait]
+impl RecognitionService for Service {
+    type RecognizeOnlineStream = BoxStream<'static, Result<proto::Recognition, Status>>;
+
+    async fn recognize(
+        &self,
+        message: Request<proto::RecognizeRequest>,
+    ) -> Result<Response<proto::Recognition>, Status> {
+        let wanted = request(message.into_inner()).map_err(status)?;
+        let view = self.0.recognize(wanted).await.map_err(status)?;
+        Ok(Response::new(view.into()))
+    }
+
+    async fn recognize_online(
+        &self,
+        message: Request<Streaming<proto::RecognizeOnlineRequest>>,
+    ) -> Result<Response<Self::RecognizeOnlineStream>, Status> {
+        let mut parts = message.into_inner();
+        let first = parts.message().await?.and_then(|request| request.part);
+        let Some(Part::Start(start)) = first else { return Err(status(out_of_order())) };
+        let session = Session {
+            app: self.0.clone(),
+            parts,
+            question: start.question.unwrap_or_default(),
+            features: all(start.features),
+            seen: Vec::new(),
+        };
+        Ok(Response::new(try_unfold(session, Session::next).boxed()))
+    }
+}
+
+/// One online recognition: all rows so far, and where more come from.
+struct Session {
+    app: App,
+    parts: Streaming<proto::RecognizeOnlineRequest>,
+    question: proto::RecognitionQuestion,
+    features: Vec<Feature>,
+    seen: Vec<Vec<f64>>,
+}
+
+impl Session {
+    /// The answer after the next message of samples, or the end.
+    async fn next(mut self) -> Result<Option<(proto::Recognition, Self)>, Status> {
+        let Some(message) = self.parts.message().await? else { return Ok(None) };
+        let Some(Part::Samples(samples)) = message.part else { return Err(status(out_of_order())) };
+        if self.seen.len() + samples.rows.len() > MAX_ROWS {
+            let text = format!("an online recognition holds at most {MAX_ROWS} rows: start another");
+            return Err(status(AppError::new(ErrorKind::TooLarge, "too_many_rows", text)));
+        }
+        self.seen.extend(rows("/rows", samples.rows).map_err(status)?);
+        let observed = Observed::Rows { features: self.features.clone(), rows: self.seen.clone() };
+        let wanted = question(self.question.clone(), observed).map_err(status)?;
+        let view = self.app.recognize(wanted).await.map_err(status)?;
+        Ok(Some((view.into(), self)))
+    }
+}
+
+fn out_of_order() -> AppError {
+    AppError::new(ErrorKind::Malformed, "out_of_order", "send one start message, then samples")
+}

@@ -1,0 +1,54 @@
+//! TrajectoryService.
+
+use super::convert::id;
+use super::convert::trajectory::{chunks, split};
+use super::error::status;
+use super::proto;
+use crate::app::{App, AppError, ErrorKind};
+use futures_util::StreamExt as _;
+use futures_util::stream::{BoxStream, iter};
+use proto::trajectory_service_server::TrajectoryService;
+use tonic::{Request, Response, Status};
+
+const DEFAULT_BATCH: u32 = 256;
+const MAX_BATCH: u32 = 4096;
+
+/// The service.
+pub struct Service(pub App);
+
+#[tonic::async_trait]
+impl TrajectoryService for Service {
+    type StreamTrajectoryStream = BoxStream<'static, Result<proto::TrajectoryChunk, Status>>;
+
+    async fn get_trajectory(
+        &self,
+        request: Request<proto::GetTrajectoryRequest>,
+    ) -> Result<Response<proto::Trajectory>, Status> {
+        let id = id(&request.into_inner().id).map_err(status)?;
+        let view = self.0.get_trajectory(&id).await.map_err(status)?;
+        Ok(Response::new(split(view).0))
+    }
+
+    async fn stream_trajectory(
+        &self,
+        request: Request<proto::StreamTrajectoryRequest>,
+    ) -> Result<Response<Self::StreamTrajectoryStream>, Status> {
+        let request = request.into_inner();
+        let id = id(&request.id).map_err(status)?;
+        let batch = batch(request.batch).map_err(status)?;
+        let (_, points) = split(self.0.get_trajectory(&id).await.map_err(status)?);
+        let from = usize::try_from(request.from_index).unwrap_or(usize::MAX);
+        Ok(Response::new(iter(chunks(points, from, batch)).map(Ok).boxed()))
+    }
+}
+
+fn batch(asked: u32) -> Result<usize, AppError> {
+    match asked {
+        0 => Ok(DEFAULT_BATCH as usize),
+        1..=MAX_BATCH => Ok(asked as usize),
+        _ => {
+            let message = format!("batch is {asked}: give 1 to {MAX_BATCH}");
+            Err(AppError::new(ErrorKind::Malformed, "invalid_batch", message))
+        }
+    }
+}

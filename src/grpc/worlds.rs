@@ -1,0 +1,39 @@
+//! WorldService.
+
+use super::convert::{id, items, page, world};
+use super::error::status;
+use super::proto;
+use crate::app::App;
+use proto::world_service_server::WorldService;
+use tonic::{Request, Response, Status};
+
+/// The service.
+pub struct Service(pub App);
+
+#[tonic::async_trait]
+impl WorldService for Service {
+    async fn create_world(
+        &self,
+        request: Request<proto::CreateWorldRequest>,
+    ) -> Result<Response<proto::World>, Status> {
+        let wanted = world::create(request.into_inner()).map_err(status)?;
+        let view = self.0.create_world(wanted).await.map_err(status)?;
+        Ok(Response::new(view.into()))
+    }
+
+    async fn get_world(&self, request: Request<proto::GetWorldRequest>) -> Result<Response<proto::World>, Status> {
+        let id = id(&request.into_inner().id).map_err(status)?;
+        let view = self.0.get_world(&id).await.map_err(status)?;
+        Ok(Response::new(view.into()))
+    }
+
+    async fn list_worlds(
+        &self,
+        request: Request<proto::ListWorldsRequest>,
+    ) -> Result<Response<proto::ListWorldsResponse>, Status> {
+        let request = request.into_inner();
+        let found = self.0.list_worlds(page(request.page_size, request.page_token)).await.map_err(status)?;
+        let (worlds, next_page_token) = items(found);
+        Ok(Response::new(proto::ListWorldsResponse { worlds, next_page_token }))
+    }
+}
