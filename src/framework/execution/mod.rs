@@ -1,5 +1,20 @@
 //! IET, Incrementally Evolved Trajectories, as a state machine without I/O.
 
+mod discrepancy;
+mod error;
+mod iet;
+mod observations;
+mod result;
+mod setup;
+mod simulate;
 mod spec;
+mod state;
 
+pub use discrepancy::PartialDiscrepancy;
+pub use error::ProblemError;
+pub use iet::Iet;
+pub use observations::Observations;
+pub use result::{GoalResult, Progress, RunResult, TracePoint};
+pub use simulate::{run, simulate};
 pub use spec::{ExecutionSpec, Problem};
+pub use state::IetState;

@@ -1,0 +1,118 @@
+//! The discrepancy of a growing observation O_1..O_j against X_1..X_j, one row of the DTW matrix a candidate.
+//!
+//! The rows of O_1..O_j-1 are kept over all n goals, so a candidate costs j local distances and one row; the bits equal
+//! those of warping the whole observation anew.
+
+use crate::framework::generalization::Goals;
+use crate::framework::recognition::Metric;
+use crate::framework::recognition::dtw::{Border, extend_row, local_distances};
+
+/// Partial observation of one run under one metric.
+#[derive(Debug, Clone)]
+pub struct PartialDiscrepancy {
+    border: Border,
+    /// Features in one path: m, or 1 where each feature has its own.
+    width: usize,
+    planes: Vec<Plane>,
+    local: Vec<f64>,
+    row: Vec<f64>,
+    observed: usize,
+}
+
+#[derive(Debug, Clone)]
+struct Plane {
+    /// n x width goals, row-major.
+    goals: Vec<f64>,
+    /// Row j-1 of the accumulated matrix over all n goals; empty before the first observation.
+    previous: Vec<f64>,
+}
+
+impl PartialDiscrepancy {
+    /// Nothing observed yet.
+    #[must_use]
+    pub fn new(goals: &Goals, metric: Metric) -> Self {
+        let m = goals.features().len();
+        let (border, planes): (_, Vec<Vec<f64>>) = match metric {
+            Metric::Multivariate => (Border::Accumulated, vec![goals.values().to_vec()]),
+            Metric::Aquila => (Border::Local, vec![goals.values().to_vec()]),
+            Metric::SumOfFeatures => {
+                let column = |k| goals.rows().map(|row| row[k]).collect();
+                (Border::Accumulated, (0..m).map(column).collect())
+            }
+        };
+        Self {
+            border,
+            width: if metric == Metric::SumOfFeatures { 1 } else { m },
+            planes: planes.into_iter().map(|goals| Plane { goals, previous: Vec::new() }).collect(),
+            local: vec![0.0; goals.len()],
+            row: vec![0.0; goals.len()],
+            observed: 0,
+        }
+    }
+
+    /// Discrepancy (features' unit) of O_1..O_j-1 and then `observation` (m values) against X_1..X_j, where j - 1
+    /// observations were appended before; allocates nothing.
+    ///
+    /// # Panics
+    /// If all n observations were appended or `observation` has not m values.
+    #[must_use]
+    pub fn of(&mut self, observation: &[f64]) -> f64 {
+        let columns = self.observed + 1;
+        let mut sum = 0.0;
+        for (plane, part) in self.planes.iter().zip(observation.chunks_exact(self.width)) {
+            local_distances(part, &plane.goals, &mut self.local[..columns]);
+            extend_row(&plane.previous, &self.local[..columns], self.border, &mut self.row[..columns]);
+            sum += self.row[columns - 1];
+        }
+        sum
+    }
+
+    /// `observation` (m values) becomes O_j.
+    ///
+    /// # Panics
+    /// As [`PartialDiscrepancy::of`].
+    pub fn append(&mut self, observation: &[f64]) {
+        for (plane, part) in self.planes.iter_mut().zip(observation.chunks_exact(self.width)) {
+            local_distances(part, &plane.goals, &mut self.local);
+            extend_row(&plane.previous, &self.local, self.border, &mut self.row);
+            plane.previous.clear();
+            plane.previous.extend_from_slice(&self.row);
+        }
+        self.observed += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::framework::Feature;
+    use crate::framework::recognition::dtw::distance;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn incremental_equals_whole_to_the_last_bit(
+            goals in prop::collection::vec(prop::collection::vec(-9.0..9.0_f64, 2), 1..8),
+            seen in prop::collection::vec(-9.0..9.0_f64, 16)
+        ) {
+            let features = vec![Feature::new("a", ""), Feature::new("b", "")];
+            let matrix = Goals::new(features, &goals).unwrap();
+            for metric in [Metric::Multivariate, Metric::Aquila, Metric::SumOfFeatures] {
+                let mut partial = PartialDiscrepancy::new(&matrix, metric);
+                for j in 1..=goals.len() {
+                    let observation = &seen[2 * (j - 1)..2 * j];
+                    let whole = match metric {
+                        Metric::Multivariate => distance(&seen[..2 * j], &matrix.values()[..2 * j], 2, Border::Accumulated),
+                        Metric::Aquila => distance(&seen[..2 * j], &matrix.values()[..2 * j], 2, Border::Local),
+                        Metric::SumOfFeatures => (0..2).map(|k| {
+                            let column = |v: &[f64]| v[..2 * j].iter().skip(k).step_by(2).copied().collect::<Vec<_>>();
+                            distance(&column(&seen), &column(matrix.values()), 1, Border::Accumulated)
+                        }).sum(),
+                    };
+                    prop_assert_eq!(partial.of(observation).to_bits(), whole.to_bits());
+                    partial.append(observation);
+                }
+            }
+        }
+    }
+}

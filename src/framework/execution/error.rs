@@ -1,0 +1,84 @@
+//! Why a problem cannot be executed.
+
+use crate::framework::optimizer::OptimizerError;
+use crate::framework::robot::{ChainError, ModelError};
+use crate::framework::world::WorldError;
+
+/// A problem that cannot be run or gone on with.
+#[derive(Debug, thiserror::Error)]
+pub enum ProblemError {
+    /// The URDF.
+    #[error("robot: {0}")]
+    Model(#[from] ModelError),
+    /// The chain.
+    #[error("robot: {0}")]
+    Chain(#[from] ChainError),
+    /// The world.
+    #[error("world: {0}")]
+    World(#[from] WorldError),
+    /// The method.
+    #[error("method: {0}")]
+    Optimizer(#[from] OptimizerError),
+    /// A goal feature the world does not show.
+    #[error("the goals need feature {feature:?}, which the world does not show; it shows {shown:?}")]
+    UnknownFeature {
+        /// The feature of the goals.
+        feature: String,
+        /// The world's features.
+        shown: Vec<String>,
+    },
+    /// Goals and world measure in different units.
+    #[error("feature {feature:?} is in {goal_unit:?} in the goals and in {world_unit:?} in the world: use one unit")]
+    Unit {
+        /// The feature.
+        feature: String,
+        /// Unit of the goals.
+        goal_unit: String,
+        /// Unit of the world.
+        world_unit: String,
+    },
+    /// A limit or threshold out of its range.
+    #[error("{field} is {value}: {expected}")]
+    Value {
+        /// The field.
+        field: &'static str,
+        /// The value given.
+        value: f64,
+        /// What is expected.
+        expected: &'static str,
+    },
+    /// A saved run of another version.
+    #[error("the saved run has version {found}, this program reads {expected}: run the job again")]
+    Version {
+        /// Version of the state.
+        found: u32,
+        /// Version understood.
+        expected: u32,
+    },
+    /// A saved run of another problem.
+    #[error("the saved run has {found} {what}, the problem has {expected}: it belongs to another job")]
+    Shape {
+        /// What does not fit.
+        what: &'static str,
+        /// Number found.
+        found: usize,
+        /// Number needed.
+        expected: usize,
+    },
+    /// Every trial of a goal failed.
+    #[error("goal {goal}: none of {failures} trials could be executed; check the robot and its limits")]
+    NothingExecuted {
+        /// Goal index from 0.
+        goal: usize,
+        /// Trials that failed.
+        failures: u64,
+    },
+    /// Asked for a result too early.
+    #[error("the run is at goal {goal} of {goals}: it has no result yet")]
+    Unfinished {
+        /// Goal being searched.
+        goal: usize,
+        /// Number of goals.
+        goals: usize,
+    },
+}

@@ -1,0 +1,99 @@
+//! A problem made ready: robot, goals and world proven to fit together.
+
+use super::error::ProblemError;
+use super::spec::{ExecutionSpec, Problem};
+use crate::framework::generalization::Goals;
+use crate::framework::optimizer::SearchSpace;
+use crate::framework::robot::{Chain, RobotModel};
+use crate::framework::world::{self, WorldSpec};
+
+/// What a run needs of its problem.
+#[derive(Debug, Clone)]
+pub(super) struct Setup {
+    pub goals: Goals,
+    pub chain: Chain,
+    pub spec: ExecutionSpec,
+    /// For each feature of the goals, its index among the world's.
+    pub select: Vec<usize>,
+    pub world_features: usize,
+    /// Index of the painted percentage among the world's features, in coverage worlds.
+    pub painted: Option<usize>,
+}
+
+impl Setup {
+    pub(super) fn new(problem: &Problem) -> Result<Self, ProblemError> {
+        check_spec(&problem.execution)?;
+        let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
+        world::build(&problem.world, &chain)?;
+        let shown = world::features(&problem.world)?;
+        let mut select = Vec::with_capacity(problem.goals.features().len());
+        for feature in problem.goals.features() {
+            let index = shown.iter().position(|f| f.name == feature.name).ok_or_else(|| {
+                let shown = shown.iter().map(|f| f.name.clone()).collect();
+                ProblemError::UnknownFeature { feature: feature.name.clone(), shown }
+            })?;
+            if !feature.unit.is_empty() && feature.unit != shown[index].unit {
+                return Err(ProblemError::Unit {
+                    feature: feature.name.clone(),
+                    goal_unit: feature.unit.clone(),
+                    world_unit: shown[index].unit.clone(),
+                });
+            }
+            select.push(index);
+        }
+        Ok(Self {
+            goals: problem.goals.clone(),
+            chain,
+            spec: problem.execution.clone(),
+            select,
+            world_features: shown.len(),
+            painted: matches!(problem.world, WorldSpec::Coverage(_)).then_some(0),
+        })
+    }
+
+    /// Where the optimiser of a goal searches.
+    pub(super) fn space(&self) -> SearchSpace {
+        SearchSpace {
+            lower: self.chain.genes().iter().map(|g| g.lower).collect(),
+            upper: self.chain.genes().iter().map(|g| g.upper).collect(),
+            features: self.goals.features().len(),
+            target: self.spec.target_discrepancy,
+        }
+    }
+
+    /// The rounding noise of one candidate: uniform, of total width `rounding_noise`, a function of seed, goal and
+    /// candidate alone, so that the order of news does not matter.
+    pub(super) fn noise(&self, seed: u64, goal: usize, id: u64) -> f64 {
+        let width = self.spec.rounding_noise;
+        if width == 0.0 {
+            return 0.0;
+        }
+        let word = mix(mix(mix(seed) ^ goal as u64) ^ id);
+        width * ((word >> 11) as f64 / 9_007_199_254_740_992.0 - 0.5)
+    }
+}
+
+/// SplitMix64's output function: G. L. Steele et al., OOPSLA 2014, DOI 10.1145/2714064.2660195.
+fn mix(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    word ^ (word >> 31)
+}
+
+fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
+    let not_negative = |field, value: f64| {
+        if value.is_finite() && value >= 0.0 {
+            return Ok(());
+        }
+        Err(ProblemError::Value { field, value, expected: "give a finite number of at least 0" })
+    };
+    not_negative("target_discrepancy", spec.target_discrepancy.unwrap_or(0.0))?;
+    not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
+    not_negative("rounding_noise", spec.rounding_noise)?;
+    if spec.max_evaluations_per_goal == Some(0) {
+        let expected = "give at least 1";
+        return Err(ProblemError::Value { field: "max_evaluations_per_goal", value: 0.0, expected });
+    }
+    Ok(())
+}

@@ -1,0 +1,53 @@
+//! Drives a run in a simulated world, slice by slice.
+
+use super::error::ProblemError;
+use super::iet::Iet;
+use super::observations::Observations;
+use super::result::{Progress, RunResult};
+use super::spec::Problem;
+use crate::framework::optimizer::{Batch, Provenance};
+use crate::framework::world::{self, World};
+
+/// Candidates asked for at once.
+const BATCH: u64 = 64;
+
+/// Makes up to `budget` evaluations of `iet` in `world`, which is brought to the run's prefix first. The caller slices
+/// a run to save it, cancel it or report on it; slicing changes no bit of the result.
+///
+/// # Errors
+/// [`ProblemError`] if a goal ends without any executed candidate.
+pub fn simulate(iet: &mut Iet, world: &mut dyn World, budget: u64) -> Result<Progress, ProblemError> {
+    let (genes, features) = (iet.chain().len(), iet.world_features());
+    let mut batch = Batch::new(genes, 0);
+    let mut observations = Observations::new(genes, features, Provenance::Simulated);
+    let mut scratch = vec![0.0; features];
+    world.reset();
+    let mut committed = 0;
+    let mut left = budget;
+    while left > 0 && !iet.is_finished() {
+        for joints in iet.prefix().skip(committed) {
+            world.commit(joints, &mut scratch);
+            committed += 1;
+        }
+        batch.clear(usize::try_from(left.min(BATCH)).unwrap_or(1));
+        iet.ask(&mut batch);
+        observations.clear();
+        for (id, joints) in batch.iter() {
+            world.observe(joints, observations.observed(id, joints));
+        }
+        left -= (batch.len() as u64).min(left).max(1);
+        iet.tell(&observations)?;
+    }
+    Ok(iet.progress())
+}
+
+/// One whole run of `problem` in its world.
+///
+/// # Errors
+/// As [`Iet::new`] and [`simulate`].
+pub fn run(problem: &Problem, seed: u64) -> Result<RunResult, ProblemError> {
+    let mut iet = Iet::new(problem, seed)?;
+    let mut world = world::build(&problem.world, iet.chain())?;
+    simulate(&mut iet, world.as_mut(), u64::MAX)?;
+    iet.finish()
+}

@@ -1,0 +1,69 @@
+//! What a run remembers: saved at any point, resumed with the same bits.
+
+use super::error::ProblemError;
+use super::result::{GoalResult, TracePoint};
+use crate::framework::optimizer::OptimizerState;
+use serde::{Deserialize, Serialize};
+
+/// Version of [`IetState`]; changes when its meaning does.
+pub(super) const STATE_VERSION: u32 = 1;
+
+/// A saved run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IetState {
+    pub(super) version: u32,
+    pub(super) seed: u64,
+    pub(super) results: Vec<GoalResult>,
+    pub(super) evaluations: u64,
+    pub(super) goal: GoalState,
+    pub(super) optimizer: Option<OptimizerState>,
+}
+
+/// The goal being searched; after the last goal, that one.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct GoalState {
+    pub evaluations: u64,
+    pub failures: u64,
+    pub best: Option<f64>,
+    pub painted: Option<f64>,
+    pub trace: Vec<TracePoint>,
+}
+
+impl IetState {
+    /// The seed of the saved run.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Evaluations until it was saved.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Whether this state can be one of a problem with n goals, that many genes and m features.
+    pub(super) fn check(&self, goals: usize, genes: usize, features: usize) -> Result<(), ProblemError> {
+        if self.version != STATE_VERSION {
+            return Err(ProblemError::Version { found: self.version, expected: STATE_VERSION });
+        }
+        let shape = |what, found, expected| Err(ProblemError::Shape { what, found, expected });
+        if self.results.len() > goals {
+            return shape("finished goals", self.results.len(), goals);
+        }
+        let searching = usize::from(self.optimizer.is_some());
+        if searching != usize::from(self.results.len() < goals) {
+            return shape("goals being searched", searching, 1 - searching);
+        }
+        for result in &self.results {
+            if result.joints.len() != genes {
+                return shape("joints", result.joints.len(), genes);
+            }
+            if result.observation.len() != features {
+                return shape("features", result.observation.len(), features);
+            }
+        }
+        Ok(())
+    }
+}
