@@ -1,0 +1,24 @@
+// Names for the parts of the REST interface this dashboard speaks of.
+
+import type { components } from "./schema";
+
+type Schemas = components["schemas"];
+
+export type Action = Schemas["ActionView"];
+export type CreateJob = Schemas["CreateJob"];
+export type Demonstration = Schemas["DemonstrationView"];
+export type ExecutionSpec = Schemas["ExecutionSpec"];
+export type Feature = Schemas["Feature"];
+export type FieldError = Schemas["FieldError"];
+export type GoalProgress = Schemas["GoalProgress"];
+export type Job = Schemas["JobView"];
+export type JobEvent = Schemas["JobEvent"];
+export type JobProgress = Schemas["JobProgress"];
+export type JobState = Schemas["State"];
+export type Metric = Schemas["Metric"];
+export type Robot = Schemas["RobotView"];
+export type Run = Schemas["RunView"];
+export type RunGoals = Schemas["RunGoals"];
+export type Trajectory = Schemas["TrajectoryView"];
+export type World = Schemas["WorldView"];
+export type WorldSpec = Schemas["WorldSpec"];

@@ -1,0 +1,13 @@
+// Charts with their chunk loaded when the first one is shown.
+
+import { lazy, Suspense, type ComponentProps } from "react";
+
+const Lazy = lazy(async () => ({ default: (await import("./LineChart")).LineChart }));
+
+export function Chart(props: ComponentProps<typeof Lazy>) {
+  return (
+    <Suspense fallback={<div className="chart" style={{ minHeight: props.height ?? 240 }} />}>
+      <Lazy {...props} />
+    </Suspense>
+  );
+}

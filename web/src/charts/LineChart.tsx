@@ -1,0 +1,127 @@
+// A line chart on uPlot: thousands of points without a freeze, colours of the scheme, a text alternative.
+
+import { useEffect, useRef } from "react";
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { formatNumber } from "../lib/format";
+import { token, useDarkScheme } from "./theme";
+
+export interface ChartSeries {
+  label: string;
+  /** One value for each x; null leaves a gap. */
+  values: (number | null)[];
+  /** Design token of the colour. */
+  color: string;
+  stepped?: boolean;
+  /** Points only, without a line between them. */
+  points?: boolean;
+  dashed?: boolean;
+  width?: number;
+}
+
+interface Props {
+  /** What the chart shows, for those who cannot see it. */
+  summary: string;
+  x: number[];
+  xLabel: string;
+  yLabel: string;
+  series: ChartSeries[];
+  /** x at which a thin vertical line is drawn. */
+  marks?: number[];
+  height?: number;
+  legend?: boolean;
+}
+
+function axis(label: string, size: number): uPlot.Axis {
+  const line = { stroke: token("grid"), width: 1 };
+  return {
+    label,
+    labelSize: 22,
+    labelFont: "12px system-ui, sans-serif",
+    font: "12px system-ui, sans-serif",
+    size,
+    stroke: token("muted"),
+    grid: line,
+    ticks: { ...line, size: 4 },
+    values: (_plot, splits) => splits.map((value) => formatNumber(value)),
+  };
+}
+
+function line(series: ChartSeries): uPlot.Series {
+  const color = token(series.color);
+  const stepped = series.stepped === true ? uPlot.paths.stepped?.({ align: 1 }) : undefined;
+  return {
+    label: series.label,
+    stroke: color,
+    width: series.points === true ? 0 : (series.width ?? 2),
+    ...(stepped ? { paths: stepped } : {}),
+    ...(series.dashed === true ? { dash: [6, 5] } : {}),
+    points: series.points === true ? { show: true, size: 7, fill: color, stroke: color } : { show: false },
+    value: (_plot, value: number | null) => formatNumber(value),
+  };
+}
+
+function drawMarks(marks: readonly number[]) {
+  return (plot: uPlot) => {
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.strokeStyle = token("border-strong");
+    ctx.globalAlpha = 0.45;
+    ctx.setLineDash([3, 4]);
+    ctx.beginPath();
+    for (const mark of marks) {
+      const at = plot.valToPos(mark, "x", true);
+      ctx.moveTo(at, bbox.top);
+      ctx.lineTo(at, bbox.top + bbox.height);
+    }
+    ctx.stroke();
+    ctx.restore();
+  };
+}
+
+export function LineChart({ summary, x, xLabel, yLabel, series, marks, height = 240, legend = true }: Props) {
+  const host = useRef<HTMLDivElement>(null);
+  const plot = useRef<uPlot | null>(null);
+  const shownMarks = useRef<readonly number[]>([]);
+  const dark = useDarkScheme();
+  const shape = series.map((each) => `${each.label}|${each.color}`).join("\n");
+
+  const latest = useRef(series);
+  useEffect(() => {
+    latest.current = series;
+    shownMarks.current = marks ?? [];
+  });
+
+  useEffect(() => {
+    const element = host.current;
+    if (element === null) return undefined;
+    const chart = new uPlot(
+      {
+        width: Math.max(200, element.clientWidth),
+        height,
+        legend: { show: legend, live: true },
+        cursor: { y: false, drag: { x: false, y: false } },
+        scales: { x: { time: false } },
+        axes: [axis(xLabel, 40), axis(yLabel, 58)],
+        series: [{ label: xLabel, value: (_plot, value: number | null) => formatNumber(value) }, ...latest.current.map(line)],
+        hooks: { drawClear: [(self: uPlot) => drawMarks(shownMarks.current)(self)] },
+      },
+      [[], ...latest.current.map(() => [])],
+      element,
+    );
+    plot.current = chart;
+    const observer = new ResizeObserver(() => chart.setSize({ width: Math.max(200, element.clientWidth), height }));
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      chart.destroy();
+      plot.current = null;
+    };
+  }, [shape, xLabel, yLabel, height, legend, dark]);
+
+  useEffect(() => {
+    plot.current?.setData([x, ...series.map((each) => each.values)]);
+  }, [x, series, marks, shape, xLabel, yLabel, height, legend, dark]);
+
+  return <div ref={host} className="chart" role="img" aria-label={summary} style={{ minHeight: height }} />;
+}

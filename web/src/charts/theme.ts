@@ -1,0 +1,20 @@
+// Canvases cannot inherit CSS: the colours of the present scheme, read once a scheme.
+
+import { useSyncExternalStore } from "react";
+
+const scheme = window.matchMedia("(prefers-color-scheme: dark)");
+
+function subscribe(listener: () => void): () => void {
+  scheme.addEventListener("change", listener);
+  return () => scheme.removeEventListener("change", listener);
+}
+
+/** True in the dark scheme; the component renders again when it changes. */
+export function useDarkScheme(): boolean {
+  return useSyncExternalStore(subscribe, () => scheme.matches);
+}
+
+/** The value of a design token such as `curve`. */
+export function token(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}

@@ -1,0 +1,39 @@
+// Where a trajectory is at a time.
+
+export interface TimedPositions {
+  t_s: number;
+  positions: readonly number[];
+}
+
+/** Index of the last point at or before `time`; 0 before the first. `points` are in the order of time. */
+export function indexAt(points: readonly TimedPositions[], time: number): number {
+  let low = 0;
+  let high = points.length - 1;
+  while (low < high) {
+    const middle = Math.ceil((low + high) / 2);
+    if ((points[middle]?.t_s ?? Infinity) <= time) low = middle;
+    else high = middle - 1;
+  }
+  return Math.max(0, low);
+}
+
+/** Joint positions at `time`, linear between points and held outside. */
+export function positionsAt(points: readonly TimedPositions[], time: number): number[] {
+  const index = indexAt(points, time);
+  const from = points[index];
+  const to = points[index + 1];
+  if (from === undefined) return [];
+  if (to === undefined || time <= from.t_s) return [...from.positions];
+  const share = (time - from.t_s) / (to.t_s - from.t_s);
+  return from.positions.map((value, joint) => value + share * ((to.positions[joint] ?? value) - value));
+}
+
+/** Names and values side by side. */
+export function named(names: readonly string[], values: readonly number[]): Record<string, number> {
+  return Object.fromEntries(names.map((name, index) => [name, values[index] ?? 0]));
+}
+
+/** How many goals are behind `time`; a goal counts when its time is reached within a rounding error. */
+export function goalsReached(goalTimes: readonly number[], time: number): number {
+  return goalTimes.filter((goal) => goal <= time + 1e-9).length;
+}

@@ -1,0 +1,108 @@
+// What the events of one job add up to. Pure: (state, event) -> state, so that a replay gives what was watched live.
+
+import type { GoalProgress, JobEvent, JobProgress, JobState } from "../api/types";
+
+/** Best discrepancy against evaluations of one repetition, in parallel columns. */
+export interface Curve {
+  repetition: number;
+  evaluations: number[];
+  discrepancy: number[];
+  goal: number[];
+}
+
+/** A repetition that ended. */
+export type FinishedRun = Extract<JobEvent, { type: "run" }>;
+
+export interface LiveJob {
+  lastSeq: number;
+  state: JobState | null;
+  reason: string | null;
+  attempt: number | null;
+  progress: JobProgress | null;
+  /** Goals finished in the repetition shown, by index. */
+  goals: GoalProgress[];
+  curve: Curve;
+  runs: FinishedRun[];
+}
+
+/** Curves longer than this lose every second point; a screen shows fewer. */
+export const MAX_CURVE = 4000;
+
+const emptyCurve = (repetition: number): Curve => ({ repetition, evaluations: [], discrepancy: [], goal: [] });
+
+export const INITIAL: LiveJob = {
+  lastSeq: 0,
+  state: null,
+  reason: null,
+  attempt: null,
+  progress: null,
+  goals: [],
+  curve: emptyCurve(0),
+  runs: [],
+};
+
+/** Adds events; one already seen (a replay after a reconnection) changes nothing. */
+export function applyEvents(live: LiveJob, events: readonly JobEvent[]): LiveJob {
+  return events.reduce(applyEvent, live);
+}
+
+function applyEvent(live: LiveJob, event: JobEvent): LiveJob {
+  if (event.seq <= live.lastSeq) return live;
+  const next = { ...live, lastSeq: event.seq };
+  switch (event.type) {
+    case "state":
+      return { ...next, state: event.state, reason: event.reason ?? null, attempt: event.attempt };
+    case "progress":
+      return withProgress(next, event.progress);
+    case "goal":
+      return withGoal(next, event.goal);
+    case "run":
+      return { ...next, runs: withRun(next.runs, event) };
+    default:
+      // An event type newer than this dashboard.
+      return next;
+  }
+}
+
+function withProgress(live: LiveJob, progress: JobProgress): LiveJob {
+  const { repetition, finished_goals: finished } = progress;
+  const started = live.curve.repetition === repetition ? live.curve : emptyCurve(repetition);
+  const curve = withPoint(started, progress.evaluations, progress.discrepancy ?? null, progress.goal_index);
+  return { ...live, progress, curve, goals: finished };
+}
+
+function withGoal(live: LiveJob, goal: GoalProgress): LiveJob {
+  const sameRun = live.curve.repetition === goal.repetition;
+  const before = sameRun ? live.goals.filter((other) => other.index !== goal.index) : [];
+  const goals = [...before, goal].sort((a, b) => a.index - b.index);
+  const evaluations = goals.reduce((sum, each) => sum + each.evaluations, 0);
+  const curve = withPoint(sameRun ? live.curve : emptyCurve(goal.repetition), evaluations, goal.discrepancy, goal.index);
+  return { ...live, goals, curve };
+}
+
+function withPoint(curve: Curve, evaluations: number, discrepancy: number | null, goal: number): Curve {
+  const last = curve.evaluations.at(-1) ?? -1;
+  // A job resumed from its checkpoint reports again what it had reported: the curve goes on where it was.
+  if (discrepancy === null || evaluations <= last) return curve;
+  const thinned = curve.evaluations.length >= MAX_CURVE ? thin(curve) : curve;
+  return {
+    repetition: curve.repetition,
+    evaluations: [...thinned.evaluations, evaluations],
+    discrepancy: [...thinned.discrepancy, discrepancy],
+    goal: [...thinned.goal, goal],
+  };
+}
+
+function thin(curve: Curve): Curve {
+  const even = <T>(values: T[]) => values.filter((_, index) => index % 2 === 0);
+  return {
+    repetition: curve.repetition,
+    evaluations: even(curve.evaluations),
+    discrepancy: even(curve.discrepancy),
+    goal: even(curve.goal),
+  };
+}
+
+function withRun(runs: FinishedRun[], run: FinishedRun): FinishedRun[] {
+  return [...runs.filter((other) => other.repetition !== run.repetition), run];
+}

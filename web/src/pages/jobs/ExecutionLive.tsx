@@ -1,0 +1,123 @@
+// The numbers, curves and ladder of an execution while it runs and after.
+
+import { Chart } from "../../charts/Chart";
+import type { Job, JobProgress, JobState } from "../../api/types";
+import { formatCount, formatDuration, formatNumber, formatPercent, formatQuantity } from "../../lib/format";
+import { isFinal } from "../../lib/states";
+import type { LiveJob } from "../../live/jobLive";
+import { Card, Facts, ProgressBar } from "../../ui/basics";
+import { ProvenanceLegend } from "../../ui/Provenance";
+import { useNow } from "../../ui/useNow";
+import { GoalLadder } from "./GoalLadder";
+
+interface Props {
+  job: Job;
+  live: LiveJob;
+  state: JobState;
+  unit: string;
+}
+
+export function ExecutionLive({ job, live, state, unit }: Props) {
+  const progress = newest(job.progress, live.progress);
+  const sameRun = live.goals.length >= progress.finished_goals.length;
+  const goals = sameRun && live.goals.length > 0 ? live.goals : progress.finished_goals;
+  const spent = goals.reduce((sum, goal) => sum + goal.evaluations, 0);
+  const searching = !isFinal(state) && goals.length < progress.goals;
+  const active = searching
+    ? { index: progress.goal_index, evaluations: Math.max(0, progress.evaluations - spent), discrepancy: progress.discrepancy ?? null }
+    : null;
+  const cumulative = goals.map((_, index) => goals.slice(0, index + 1).reduce((sum, goal) => sum + goal.evaluations, 0));
+  return (
+    <>
+      <Card>
+        <Summary job={job} progress={progress} state={state} unit={unit} />
+      </Card>
+      <div className="columns">
+        <div className="stack">
+          <Card title="Discrepancy" aside={<RunLabel progress={progress} />}>
+            <DiscrepancyChart live={live} unit={unit} boundaries={cumulative} />
+            <ProvenanceLegend counts={{ simulated: formatCount(progress.total_evaluations) }} />
+          </Card>
+          <Card title="Cumulative evaluations by goal" aside={<RunLabel progress={progress} />}>
+            <CumulativeChart cumulative={cumulative} goals={progress.goals} />
+          </Card>
+        </div>
+        <Card title="Goals" aside={<RunLabel progress={progress} />}>
+          <GoalLadder goals={progress.goals} finished={goals} active={active} unit={unit} />
+        </Card>
+      </div>
+    </>
+  );
+}
+
+/** Progress only grows: the larger one is the newer one. */
+function newest(told: JobProgress, streamed: JobProgress | null): JobProgress {
+  return streamed !== null && streamed.total_evaluations >= told.total_evaluations && told.fraction < 1 ? streamed : told;
+}
+
+function RunLabel({ progress }: { progress: JobProgress }) {
+  if (progress.repetitions <= 1) return null;
+  const run = Math.min(progress.repetition + 1, progress.repetitions);
+  return (
+    <span className="muted small">
+      run {run} of {progress.repetitions}
+    </span>
+  );
+}
+
+function Summary({ job, progress, state, unit }: { job: Job; progress: JobProgress; state: JobState; unit: string }) {
+  const now = useNow();
+  const started = job.started_at == null ? null : Date.parse(job.started_at);
+  const ended = job.finished_at == null ? now : Date.parse(job.finished_at);
+  const elapsedS = started === null ? null : Math.max(0, (ended - started) / 1000);
+  const running = state === "RUNNING" && progress.fraction > 0.02 && elapsedS !== null;
+  const leftS = running ? (elapsedS * (1 - progress.fraction)) / progress.fraction : null;
+  const done = Math.min(progress.goals, Math.max(progress.finished_goals.length, progress.goal_index));
+  return (
+    <div className="stack">
+      <Facts
+        large
+        facts={[
+          { name: "Goals reached", value: progress.goals === 0 ? "–" : `${done} of ${progress.goals}` },
+          { name: "Evaluations", value: formatCount(progress.total_evaluations) },
+          { name: "Best discrepancy", value: formatQuantity(progress.discrepancy, unit) },
+          { name: "Running for", value: formatDuration(elapsedS) },
+          { name: leftS === null ? "Progress" : "About left", value: leftS === null ? formatPercent(progress.fraction) : formatDuration(leftS) },
+        ]}
+      />
+      <ProgressBar share={progress.fraction} label="Progress of the job" />
+    </div>
+  );
+}
+
+function DiscrepancyChart({ live, unit, boundaries }: { live: LiveJob; unit: string; boundaries: number[] }) {
+  const { evaluations, discrepancy } = live.curve;
+  if (evaluations.length < 2) return <p className="muted">The curve appears with the first evaluations.</p>;
+  const last = discrepancy.at(-1);
+  return (
+    <Chart
+      summary={`Best discrepancy after ${formatCount(evaluations.at(-1))} evaluations: ${formatNumber(last)} ${unit}`}
+      x={evaluations}
+      xLabel="evaluations"
+      yLabel={unit === "" ? "discrepancy" : `discrepancy, ${unit}`}
+      series={[{ label: "best discrepancy", values: discrepancy, color: "simulated", stepped: true }]}
+      marks={boundaries}
+      legend={false}
+    />
+  );
+}
+
+function CumulativeChart({ cumulative, goals }: { cumulative: number[]; goals: number }) {
+  if (cumulative.length === 0) return <p className="muted">The curve appears when the first goal is reached.</p>;
+  return (
+    <Chart
+      summary={`${formatCount(cumulative.at(-1))} evaluations for ${cumulative.length} of ${goals} goals`}
+      x={[0, ...cumulative.map((_, index) => index + 1)]}
+      xLabel="goals reached"
+      yLabel="evaluations"
+      series={[{ label: "evaluations", values: [0, ...cumulative], color: "curve" }]}
+      legend={false}
+      height={200}
+    />
+  );
+}

@@ -1,0 +1,62 @@
+import { useState } from "react";
+import { useNavigate } from "react-router";
+import { useSteerJob, type JobVerb } from "../../api/mutations";
+import type { Job, JobState } from "../../api/types";
+import { canCancel, canPause, canResume, isFinal } from "../../lib/states";
+import { Problem } from "../../ui/feedback";
+import { Icon } from "../../ui/icons";
+
+/** Pause, resume, cancel (asked twice), acknowledge, run again: what the state allows. */
+export function JobControls({ job, state }: { job: Job; state: JobState }) {
+  const steer = useSteerJob(job.id);
+  const navigate = useNavigate();
+  const [confirming, setConfirming] = useState(false);
+  const say = (verb: JobVerb) => {
+    setConfirming(false);
+    steer.mutate(verb, {
+      onSuccess: (answer) => {
+        if (verb === "clone") void navigate(`/jobs/${answer.id}`);
+      },
+    });
+  };
+  return (
+    <>
+      {canPause(state) && (
+        <button type="button" className="button" disabled={steer.isPending} onClick={() => say("pause")}>
+          <Icon name="pause" /> Pause
+        </button>
+      )}
+      {canResume(state) && (
+        <button type="button" className="button primary" disabled={steer.isPending} onClick={() => say("resume")}>
+          <Icon name="play" /> Resume
+        </button>
+      )}
+      {state === "HALTED" && (
+        <button type="button" className="button primary" disabled={steer.isPending} onClick={() => say("acknowledge")}>
+          Acknowledge and queue again
+        </button>
+      )}
+      {canCancel(state) && !confirming && (
+        <button type="button" className="button danger" disabled={steer.isPending} onClick={() => setConfirming(true)}>
+          Cancel
+        </button>
+      )}
+      {canCancel(state) && confirming && (
+        <span className="row" role="group" aria-label="Cancel this job?">
+          <button type="button" className="button danger" onClick={() => say("cancel")}>
+            Really cancel
+          </button>
+          <button type="button" className="button quiet" onClick={() => setConfirming(false)}>
+            Keep it
+          </button>
+        </span>
+      )}
+      {isFinal(state) && (
+        <button type="button" className="button" disabled={steer.isPending} onClick={() => say("clone")}>
+          Run again
+        </button>
+      )}
+      {steer.error && <Problem error={steer.error} />}
+    </>
+  );
+}

@@ -1,0 +1,88 @@
+// One job, live: what the server last said of it, and the events that came since.
+
+import { Link, useParams } from "react-router";
+import { useAction, useJob } from "../../api/queries";
+import type { Job } from "../../api/types";
+import type { LiveJob } from "../../live/jobLive";
+import { useJobLive } from "../../live/useJobLive";
+import type { StreamHealth } from "../../live/useEventStream";
+import { isFinal } from "../../lib/states";
+import { Card, PageHead, StateBadge } from "../../ui/basics";
+import { Loaded, Notice } from "../../ui/feedback";
+import { StreamHealthBadge } from "../../ui/StreamHealth";
+import { ExecutionLive } from "./ExecutionLive";
+import { JobControls } from "./JobControls";
+import { JobSettings } from "./JobSettings";
+import { RunsTable } from "./RunsTable";
+
+export function JobPage() {
+  const { id = "" } = useParams();
+  // A new id is a new page: nothing of the former job's stream may stay.
+  return <OneJob key={id} id={id} />;
+}
+
+function OneJob({ id }: { id: string }) {
+  const job = useJob(id);
+  const { live, health } = useJobLive(id);
+  return <Loaded query={job}>{(data) => <JobView job={data} live={live} health={health} />}</Loaded>;
+}
+
+function JobView({ job, live, health }: { job: Job; live: LiveJob; health: StreamHealth }) {
+  // The stream is ahead of the last answer, except when it has lost the beginning of a job long gone.
+  const ahead = live.lastSeq >= job.last_seq;
+  const state = ahead && live.state !== null ? live.state : job.state;
+  const reason = ahead ? live.reason : job.state_reason;
+  return (
+    <>
+      <PageHead title={job.name} back={{ to: "/jobs", label: "Jobs" }} badge={<StateBadge state={state} />}>
+        {!isFinal(state) && <StreamHealthBadge health={health} />}
+        <JobControls job={job} state={state} />
+      </PageHead>
+      <div className="stack">
+        {job.failure != null && (
+          <Notice tone="bad" title={`Failed: ${job.failure.code}`}>
+            <p>{job.failure.message}</p>
+          </Notice>
+        )}
+        {job.failure == null && reason != null && reason !== "" && <Notice tone="warn" title={reason} />}
+        {job.kind === "execution" ? (
+          <Execution job={job} live={live} state={state} />
+        ) : (
+          <Generalization job={job} />
+        )}
+        <JobSettings job={job} />
+      </div>
+    </>
+  );
+}
+
+function Execution({ job, live, state }: { job: Job; live: LiveJob; state: Job["state"] }) {
+  const request = job.request.kind === "execution" ? job.request : null;
+  const action = useAction(request?.action ?? "");
+  const features = action.data?.features ?? [];
+  const units = new Set(features.map((feature) => feature.unit ?? ""));
+  const unit = units.size === 1 ? ([...units][0] ?? "") : "";
+  return (
+    <>
+      <ExecutionLive job={job} live={live} state={state} unit={unit} />
+      <RunsTable job={job} unit={unit} finishedRuns={live.runs.length} />
+    </>
+  );
+}
+
+function Generalization({ job }: { job: Job }) {
+  const action = job.result.action;
+  return (
+    <Card title="Result">
+      {action == null ? (
+        <p className="muted">The action appears here when the job has succeeded.</p>
+      ) : (
+        <div className="row">
+          <Link className="button primary" to={`/actions/${action}`}>
+            Open the action
+          </Link>
+        </div>
+      )}
+    </Card>
+  );
+}

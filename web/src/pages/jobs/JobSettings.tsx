@@ -1,0 +1,52 @@
+import { Link } from "react-router";
+import type { ReactNode } from "react";
+import type { CreateJob, Job } from "../../api/types";
+import { formatDateTime, formatNumber, humanize } from "../../lib/format";
+import { Card, Facts, type Fact } from "../../ui/basics";
+
+/** The request with what was left open filled in: all it takes to run the job again. */
+export function JobSettings({ job }: { job: Job }) {
+  const at = (time: string | null | undefined) => (time == null ? "–" : formatDateTime(Date.parse(time)));
+  return (
+    <Card title="Settings">
+      <Facts
+        facts={[
+          ...requestFacts(job.request),
+          { name: "Submitted", value: at(job.created_at) },
+          { name: "Started", value: at(job.started_at) },
+          { name: "Ended", value: at(job.finished_at) },
+          { name: "Attempt", value: job.attempt },
+        ]}
+      />
+      <p className="small muted" style={{ marginTop: 12 }}>
+        <code>{job.id}</code>
+      </p>
+    </Card>
+  );
+}
+
+function requestFacts(request: CreateJob): Fact[] {
+  if (request.kind === "generalization") {
+    return [
+      { name: "Demonstrations", value: request.demonstrations.length },
+      { name: "Shortest time between goals", value: `${formatNumber(request.t_min_s)} s` },
+      { name: "Weighting", value: humanize(request.weighting) },
+      { name: "Features", value: request.features?.join(", ") ?? "all" },
+    ];
+  }
+  const { execution, seed, repetitions = 1 } = request;
+  const method = execution.method;
+  const given: [string, ReactNode][] = [
+    ["Action", <Link key="a" to={`/actions/${request.action}`}>open</Link>],
+    ["Robot", <Link key="r" to={`/robots/${request.robot}`}>open</Link>],
+    ["Method", `${method.name.toUpperCase()}, P ${method.population ?? 50}, S ${method.stagnation ?? 3}`],
+    ["Metric", humanize(execution.metric)],
+    ["Tolerance", execution.tolerance],
+    ["Target discrepancy", execution.target_discrepancy],
+    ["Evaluations a goal at most", execution.max_evaluations_per_goal],
+    ["Evaluations a second at most", request.max_evaluations_per_s],
+    ["First seed", seed == null ? null : String(seed)],
+    ["Repetitions", repetitions],
+  ];
+  return given.flatMap(([name, value]) => (value == null ? [] : [{ name, value }]));
+}

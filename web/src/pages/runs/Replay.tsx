@@ -1,0 +1,122 @@
+// The trajectory in 3-D: the robot from its URDF, the tool's trail beside the goals, the wall's cells as they are painted.
+
+import { useMemo } from "react";
+import { useRobot, useRunTrajectory, useUrdf, useWorld } from "../../api/queries";
+import type { Robot, Run, RunGoals, Trajectory, World } from "../../api/types";
+import type { WallGrid } from "../../lib/coverage";
+import { decimateMinMax } from "../../lib/decimate";
+import { formatNumber, formatQuantity } from "../../lib/format";
+import { goalsReached, indexAt, named, positionsAt } from "../../lib/playback";
+import { positionReader } from "../../lib/space";
+import { Card } from "../../ui/basics";
+import { Loaded, Loading } from "../../ui/feedback";
+import { mountingOf } from "../../viewer/mounting";
+import { Viewer } from "../../viewer/Viewer";
+import { Player } from "./Player";
+import { usePlayback } from "./usePlayback";
+
+const MAX_TRAIL = 1500;
+
+export function Replay({ run, goals }: { run: Run; goals: RunGoals }) {
+  const trajectory = useRunTrajectory(run.id, true);
+  const robot = useRobot(run.robot);
+  const urdf = useUrdf(run.robot);
+  const world = useWorld(run.world);
+  return (
+    <Card title="Replay" aside={<Legend world={world.data} />}>
+      <Loaded query={trajectory}>
+        {(path) =>
+          robot.data !== undefined && urdf.data !== undefined && world.data !== undefined ? (
+            <Scene goals={goals} trajectory={path} robot={robot.data} urdf={urdf.data} world={world.data} />
+          ) : (
+            <Loading />
+          )
+        }
+      </Loaded>
+    </Card>
+  );
+}
+
+interface SceneProps {
+  goals: RunGoals;
+  trajectory: Trajectory;
+  robot: Robot;
+  urdf: string;
+  world: World;
+}
+
+function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
+  const play = usePlayback(trajectory.duration_s);
+  const mounting = useMemo(() => mountingOf(robot), [robot]);
+  const { points, joint_names: names } = trajectory;
+
+  const shown = useMemo(() => {
+    const kept = decimateMinMax(points.map((point) => point.t_s), MAX_TRAIL);
+    return kept.flatMap((index) => points[index] ?? []);
+  }, [points]);
+  const path = useMemo(() => shown.map((point) => named(names, point.positions)), [shown, names]);
+  const strokes = useMemo(() => goals.goals.map((goal) => named(goals.joint_names, goal.joints)), [goals]);
+  const targets = useMemo(() => {
+    const read = positionReader(goals.features);
+    return read === null ? undefined : goals.goals.map((goal) => read(goal.goal));
+  }, [goals]);
+  const wall = useMemo(() => wallOf(world), [world]);
+  const joints = useMemo(() => named(names, positionsAt(points, play.timeS)), [names, points, play.timeS]);
+
+  const reached = goalsReached(trajectory.goal_times_s, play.timeS);
+  const last = goals.goals[reached - 1];
+  return (
+    <>
+      <Viewer
+        urdf={urdf}
+        mounting={mounting}
+        joints={joints}
+        path={path}
+        pathIndex={indexAt(shown, play.timeS)}
+        {...(targets === undefined ? {} : { goals: targets })}
+        {...(wall === undefined ? {} : { wall, strokes, strokesDone: reached })}
+        summary={`Robot ${robot.name} at ${formatNumber(play.timeS, 3)} seconds, ${reached} of ${goals.goals.length} goals reached`}
+      />
+      <Player play={play} durationS={trajectory.duration_s} marks={trajectory.goal_times_s} />
+      <p className="row between small" style={{ marginTop: 8 }}>
+        <span>
+          Goal {reached} of {goals.goals.length}
+        </span>
+        {last !== undefined && (
+          <span className="muted">
+            reached{" "}
+            {goals.features.map((feature, column) => `${feature.name} ${formatQuantity(last.observation[column], feature.unit)}`).join(", ")}
+          </span>
+        )}
+      </p>
+    </>
+  );
+}
+
+function wallOf(world: World): WallGrid | undefined {
+  return world.spec.kind === "coverage" ? world.spec : undefined;
+}
+
+function Legend({ world }: { world: World | undefined }) {
+  const coverage = world?.spec.kind === "coverage";
+  const entries = coverage
+    ? [
+        { name: "tool's trail", color: "trail", shape: "line" },
+        { name: "painted", color: "cell-painted", shape: "" },
+        { name: "not painted", color: "cell", shape: "" },
+      ]
+    : [
+        { name: "tool's trail", color: "trail", shape: "line" },
+        { name: "goals", color: "goal", shape: "" },
+      ];
+  return (
+    <ul className="legend">
+      {entries.map((entry) => (
+        <li key={entry.name}>
+          <i className={entry.shape} style={{ ["--swatch" as string]: `var(--${entry.color})` }} />
+          {entry.name}
+        </li>
+      ))}
+    </ul>
+  );
+}

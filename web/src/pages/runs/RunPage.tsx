@@ -1,0 +1,120 @@
+// One finished run: its figures, the replay of its trajectory, its convergence, its goals.
+
+import { useParams } from "react-router";
+import { useConvergence, useRun, useRunGoals } from "../../api/queries";
+import type { Feature, Run, RunGoals } from "../../api/types";
+import { Chart } from "../../charts/Chart";
+import { formatCount, formatDateTime, formatNumber, formatQuantity, humanize } from "../../lib/format";
+import { Card, Facts, PageHead } from "../../ui/basics";
+import { Loaded, Notice } from "../../ui/feedback";
+import { GoalsTable } from "./GoalsTable";
+import { Replay } from "./Replay";
+
+export function RunPage() {
+  const { id = "" } = useParams();
+  const run = useRun(id);
+  const goals = useRunGoals(id);
+  return (
+    <Loaded query={run}>
+      {(data) => (
+        <>
+          <PageHead title={`Run ${data.repetition + 1}`} back={{ to: `/jobs/${data.job}`, label: "Job" }}>
+            <Exports run={data} />
+          </PageHead>
+          <div className="stack">
+            <Card>
+              <RunFacts run={data} features={goals.data?.features ?? []} />
+            </Card>
+            {data.trajectory == null ? (
+              <Notice tone="warn" title="No trajectory could be made within the robot's limits">
+                <p>{data.trajectory_problem}</p>
+              </Notice>
+            ) : (
+              <Loaded query={goals}>{(reached) => <Replay run={data} goals={reached} />}</Loaded>
+            )}
+            <div className="columns">
+              <Card title="Discrepancy">
+                <ConvergenceChart run={data} goals={goals.data} />
+              </Card>
+              <Card title="Goals" flush>
+                <Loaded query={goals}>{(reached) => <GoalsTable goals={reached} />}</Loaded>
+              </Card>
+            </div>
+          </div>
+        </>
+      )}
+    </Loaded>
+  );
+}
+
+export function commonUnit(features: readonly Feature[]): string {
+  const units = new Set(features.map((feature) => feature.unit ?? ""));
+  return units.size === 1 ? ([...units][0] ?? "") : "";
+}
+
+function RunFacts({ run, features }: { run: Run; features: readonly Feature[] }) {
+  const painted = run.painted_percent == null ? [] : [{ name: "Painted", value: formatQuantity(run.painted_percent, "%") }];
+  return (
+    <div className="stack">
+      <Facts
+        large
+        facts={[
+          { name: "Evaluations", value: formatCount(run.evaluations) },
+          { name: "Discrepancy", value: formatQuantity(run.discrepancy, commonUnit(features)) },
+          ...painted,
+          { name: "Goals", value: run.goals },
+        ]}
+      />
+      <Facts
+        facts={[
+          { name: "Method", value: run.method.toUpperCase() },
+          { name: "Metric", value: humanize(run.metric) },
+          { name: "Seed", value: String(run.seed) },
+          { name: "Ended", value: formatDateTime(Date.parse(run.created_at)) },
+          { name: "Digest of the result", value: <code title={run.digest}>{run.digest.slice(0, 16)}…</code> },
+        ]}
+      />
+    </div>
+  );
+}
+
+function Exports({ run }: { run: Run }) {
+  if (run.trajectory == null) return null;
+  const formats = [
+    { format: "csv", label: "CSV" },
+    { format: "json", label: "JSON" },
+    { format: "ros2", label: "ROS 2" },
+  ];
+  return (
+    <span className="row" role="group" aria-label="Download the trajectory">
+      <span className="muted small">Trajectory as</span>
+      {formats.map(({ format, label }) => (
+        <a key={format} className="button small" download href={`/api/v1/trajectories/${run.trajectory}:export?format=${format}`}>
+          {label}
+        </a>
+      ))}
+    </span>
+  );
+}
+
+function ConvergenceChart({ run, goals }: { run: Run; goals: RunGoals | undefined }) {
+  const convergence = useConvergence(run.id);
+  const unit = commonUnit(goals?.features ?? []);
+  const ends = goals?.goals.map((_, index, all) => all.slice(0, index + 1).reduce((sum, goal) => sum + goal.evaluations, 0));
+  return (
+    <Loaded query={convergence}>
+      {({ points }) => (
+        <Chart
+          summary={`Best discrepancy over ${formatCount(run.evaluations)} evaluations, at the end ${formatNumber(run.discrepancy)} ${unit}`}
+          x={points.map((point) => point.evaluations)}
+          xLabel="evaluations"
+          yLabel={unit === "" ? "discrepancy" : `discrepancy, ${unit}`}
+          series={[{ label: "best discrepancy", values: points.map((point) => point.discrepancy), color: "simulated", stepped: true }]}
+          marks={ends ?? []}
+          legend={false}
+          height={280}
+        />
+      )}
+    </Loaded>
+  );
+}

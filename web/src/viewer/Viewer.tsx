@@ -1,0 +1,15 @@
+// The 3-D view with its chunk loaded when it is first shown.
+
+import { lazy, Suspense } from "react";
+import type { ViewerProps } from "./RobotViewer";
+
+const RobotViewer = lazy(() => import("./RobotViewer"));
+
+export function Viewer(props: ViewerProps) {
+  const waiting = <div className="viewer viewer-message muted">Loading the 3-D view…</div>;
+  return (
+    <Suspense fallback={waiting}>
+      <RobotViewer {...props} />
+    </Suspense>
+  );
+}

@@ -1,0 +1,81 @@
+// What is drawn around a robot: the tool's trail, goals in space, the wall's cells.
+
+import * as THREE from "three";
+import { token } from "../charts/theme";
+
+/** A line through points of the world, shown up to a share of its length. */
+export class Trail {
+  readonly object = new THREE.Group();
+  private readonly done: THREE.Line;
+  private readonly count: number;
+
+  constructor(points: readonly THREE.Vector3[]) {
+    this.count = points.length;
+    const material = (opacity: number) =>
+      new THREE.LineBasicMaterial({ color: token("trail"), transparent: opacity < 1, opacity });
+    const ahead = new THREE.Line(new THREE.BufferGeometry().setFromPoints([...points]), material(0.3));
+    this.done = new THREE.Line(new THREE.BufferGeometry().setFromPoints([...points]), material(1));
+    this.object.add(ahead, this.done);
+  }
+
+  /** Draws strongly what lies before point number `index`. */
+  showUpTo(index: number): void {
+    this.done.geometry.setDrawRange(0, Math.max(0, Math.min(this.count, index + 1)));
+  }
+}
+
+/** Goals in space, each a small sphere, with a thin line in their order. */
+export function goalMarks(points: readonly THREE.Vector3[]): THREE.Group {
+  const group = new THREE.Group();
+  const material = new THREE.MeshStandardMaterial({ color: token("goal"), roughness: 0.5 });
+  const sphere = new THREE.SphereGeometry(0.014, 16, 12);
+  for (const point of points) {
+    const mark = new THREE.Mesh(sphere, material);
+    mark.position.copy(point);
+    group.add(mark);
+  }
+  const line = new THREE.LineDashedMaterial({ color: token("goal"), dashSize: 0.02, gapSize: 0.015 });
+  const path = new THREE.Line(new THREE.BufferGeometry().setFromPoints([...points]), line);
+  path.computeLineDistances();
+  group.add(path);
+  return group;
+}
+
+/** One cell of a wall in the world. */
+export interface CellShape {
+  centre: THREE.Vector3;
+  column: THREE.Vector3;
+  row: THREE.Vector3;
+}
+
+/** The wall: flat cells that change colour when painted. */
+export class Wall {
+  readonly object = new THREE.Group();
+  private readonly cells: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>[];
+
+  constructor(shapes: readonly CellShape[]) {
+    this.cells = shapes.map((shape) => {
+      const material = new THREE.MeshStandardMaterial({ side: THREE.DoubleSide, transparent: true, opacity: 0.9, roughness: 0.9 });
+      return new THREE.Mesh(square(shape), material);
+    });
+    if (this.cells.length > 0) this.object.add(...this.cells);
+    this.paint(new Set());
+  }
+
+  /** Shows the cells with these indices as painted, the others not. */
+  paint(painted: ReadonlySet<number>): void {
+    this.cells.forEach((cell, index) => {
+      cell.material.color.set(token(painted.has(index) ? "cell-painted" : "cell"));
+      cell.material.opacity = painted.has(index) ? 0.95 : 0.6;
+    });
+  }
+}
+
+function square({ centre, column, row }: CellShape): THREE.BufferGeometry {
+  const corner = (a: number, b: number) => centre.clone().addScaledVector(column, a * 0.46).addScaledVector(row, b * 0.46);
+  const corners = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+  const geometry = new THREE.BufferGeometry().setFromPoints(corners);
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  geometry.computeVertexNormals();
+  return geometry;
+}

@@ -1,0 +1,118 @@
+// A robot from its URDF. Meshes lie on nobody's server: a link that has no primitive of its own is drawn as bones to the
+// links it carries, so that every robot can be seen moving.
+
+import * as THREE from "three";
+import URDFLoader, { type URDFJoint, type URDFLink, type URDFRobot } from "urdf-loader";
+import { token } from "../charts/theme";
+import { disposeAll } from "./scene";
+
+/** Where the tool is and how the joints stand that no trajectory moves. */
+export interface Mounting {
+  baseLink: string | null;
+  tipLink: string | null;
+  toolOffset: readonly [number, number, number];
+  fixed: Readonly<Record<string, number>>;
+}
+
+export class RobotFigure {
+  readonly object: URDFRobot;
+  /** How many meshes the URDF names that are not shown. */
+  readonly missingMeshes: number;
+  private readonly tip: THREE.Object3D;
+  private readonly base: THREE.Object3D;
+  private readonly tool: THREE.Vector3;
+
+  /** Throws when the text is no URDF. */
+  constructor(urdf: string, mounting: Mounting) {
+    let missing = 0;
+    const loader = new URDFLoader();
+    loader.parseCollision = false;
+    loader.loadMeshCb = (_url, _manager, _material, done) => {
+      missing += 1;
+      done(new THREE.Object3D());
+    };
+    this.object = loader.parse(urdf);
+    this.missingMeshes = missing;
+    this.tip = (mounting.tipLink === null ? undefined : this.object.links[mounting.tipLink]) ?? lastLink(this.object);
+    this.base = (mounting.baseLink === null ? undefined : this.object.links[mounting.baseLink]) ?? this.object;
+    this.tool = new THREE.Vector3(...mounting.toolOffset);
+    this.dress();
+    this.pose(mounting.fixed);
+  }
+
+  /** Sets joints by name (rad or m), beyond their limits if need be: what was executed is shown. */
+  pose(joints: Readonly<Record<string, number>>): void {
+    for (const [name, value] of Object.entries(joints)) {
+      const joint = this.object.joints[name];
+      if (joint === undefined) continue;
+      joint.ignoreLimits = true;
+      joint.setJointValue(value);
+    }
+    this.object.updateMatrixWorld(true);
+  }
+
+  /** The tool centre point in the world, metres. */
+  toolPoint(): THREE.Vector3 {
+    return this.tip.localToWorld(this.tool.clone());
+  }
+
+  /** A point of the chain's base frame in the world, metres. */
+  fromBase(point: readonly [number, number, number]): THREE.Vector3 {
+    return this.base.localToWorld(new THREE.Vector3(...point));
+  }
+
+  dispose(): void {
+    this.object.removeFromParent();
+    disposeAll(this.object);
+  }
+
+  private dress(): void {
+    const body = new THREE.MeshStandardMaterial({ color: token("robot"), roughness: 0.75, metalness: 0.05 });
+    const joint = new THREE.MeshStandardMaterial({ color: token("robot-joint"), roughness: 0.6, metalness: 0.1 });
+    for (const link of Object.values(this.object.links)) {
+      const shapes = shapesOf(link);
+      for (const shape of shapes) shape.material = body;
+      if (shapes.length === 0) this.addBones(link, body, joint);
+    }
+    if (this.tool.lengthSq() > 1e-6) this.tip.add(bone(this.tool, body));
+    const point = new THREE.Mesh(new THREE.SphereGeometry(0.018, 20, 14), new THREE.MeshStandardMaterial({ color: token("trail") }));
+    point.position.copy(this.tool);
+    this.tip.add(point);
+  }
+
+  private addBones(link: URDFLink, body: THREE.Material, jointMaterial: THREE.Material): void {
+    for (const child of link.children as (URDFJoint | THREE.Object3D)[]) {
+      if (!("isURDFJoint" in child)) continue;
+      if (child.position.lengthSq() > 1e-6) link.add(bone(child.position, body));
+      if (child.jointType !== "fixed") {
+        const knob = new THREE.Mesh(new THREE.SphereGeometry(0.026, 20, 14), jointMaterial);
+        knob.position.copy(child.position);
+        link.add(knob);
+      }
+    }
+  }
+}
+
+function shapesOf(link: URDFLink): THREE.Mesh[] {
+  const found: THREE.Mesh[] = [];
+  for (const child of link.children) {
+    if ("isURDFJoint" in child) continue;
+    child.traverse((node) => {
+      if (node instanceof THREE.Mesh) found.push(node);
+    });
+  }
+  return found;
+}
+
+/** A slim capsule from the origin to `end`. */
+function bone(end: THREE.Vector3, material: THREE.Material): THREE.Mesh {
+  const length = end.length();
+  const mesh = new THREE.Mesh(new THREE.CapsuleGeometry(Math.min(0.022, length / 4), length, 6, 14), material);
+  mesh.position.copy(end).multiplyScalar(0.5);
+  mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), end.clone().normalize());
+  return mesh;
+}
+
+function lastLink(robot: URDFRobot): THREE.Object3D {
+  return Object.values(robot.links).findLast((link) => !link.children.some((child) => "isURDFJoint" in child)) ?? robot;
+}

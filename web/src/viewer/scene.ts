@@ -1,0 +1,117 @@
+// The 3-D stage: camera, light, floor, drawing on demand. Knows nothing of robots. ROS axes: x forward, z up, metres.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { token } from "../charts/theme";
+
+export type View = "perspective" | "front" | "side" | "top";
+
+const DIRECTIONS: Record<View, readonly [number, number, number]> = {
+  perspective: [1, -1.1, 0.7],
+  front: [1, 0, 0.001],
+  side: [0, -1, 0.001],
+  top: [-0.001, 0, 1],
+};
+
+export class Stage {
+  readonly root = new THREE.Group();
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly controls: OrbitControls;
+  private readonly observer: ResizeObserver;
+  private readonly host: HTMLElement;
+  private frame = 0;
+
+  /** Throws when the browser has no WebGL. */
+  constructor(host: HTMLElement) {
+    this.host = host;
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.domElement.tabIndex = 0;
+    this.renderer.domElement.setAttribute("role", "img");
+    host.append(this.renderer.domElement);
+
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.listenToKeyEvents(this.renderer.domElement);
+    this.controls.addEventListener("change", () => this.draw());
+
+    const sun = new THREE.DirectionalLight(0xffffff, 2.2);
+    sun.position.set(2, -3, 5);
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x667788, 2.0), sun, this.root);
+    this.recolor();
+
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(host);
+    this.resize();
+  }
+
+  /** Names the picture for those who cannot see it. */
+  describe(text: string): void {
+    this.renderer.domElement.setAttribute("aria-label", text);
+  }
+
+  /** Takes the colours of the present scheme. */
+  recolor(): void {
+    this.scene.background = new THREE.Color(token("scene"));
+    this.scene.getObjectByName("floor")?.removeFromParent();
+    const floor = new THREE.GridHelper(4, 16, token("border-strong"), token("border"));
+    floor.name = "floor";
+    floor.rotateX(Math.PI / 2);
+    this.scene.add(floor);
+    this.draw();
+  }
+
+  /** Looks at everything from one side. */
+  fit(view: View): void {
+    const box = new THREE.Box3().setFromObject(this.root);
+    if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, 0), new THREE.Vector3(0.5, 0.5, 1));
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = sphere.radius / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2)) / narrow;
+    const direction = new THREE.Vector3(...DIRECTIONS[view]).normalize();
+    this.camera.position.copy(sphere.center).addScaledVector(direction, distance * 1.02);
+    this.controls.target.copy(sphere.center);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Draws in the next animation frame; cheap to call often. */
+  draw(): void {
+    if (this.frame === 0) {
+      this.frame = requestAnimationFrame(() => {
+        this.frame = 0;
+        this.renderer.render(this.scene, this.camera);
+      });
+    }
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.frame);
+    this.observer.disconnect();
+    this.controls.dispose();
+    disposeAll(this.scene);
+    this.renderer.dispose();
+    this.renderer.domElement.remove();
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}
+
+/** Frees what the graphics card holds of an object and everything below it. */
+export function disposeAll(object: THREE.Object3D): void {
+  object.traverse((node) => {
+    if (!(node instanceof THREE.Mesh || node instanceof THREE.Line)) return;
+    const drawn = node as THREE.Mesh;
+    drawn.geometry.dispose();
+    for (const material of [drawn.material].flat()) material.dispose();
+  });
+}
