@@ -8,7 +8,7 @@ import { api, body } from "./client";
 const LIVELY_MS = 1500;
 const CALM_MS = 8000;
 
-const nextPage = (page: { next_page_token?: string }) => (page.next_page_token ? page.next_page_token : undefined);
+const nextPage = (page: { next_page_token: string }) => (page.next_page_token === "" ? undefined : page.next_page_token);
 const pageQuery = (token: string) => ({ page_size: 50, ...(token === "" ? {} : { page_token: token }) });
 
 export function useJobs() {

@@ -16,6 +16,8 @@ export interface ChartSeries {
   /** Points only, without a line between them. */
   points?: boolean;
   dashed?: boolean;
+  /** Draws over gaps, for series that share x with others. */
+  spanGaps?: boolean;
   width?: number;
 }
 
@@ -55,6 +57,7 @@ function line(series: ChartSeries): uPlot.Series {
     stroke: color,
     width: series.points === true ? 0 : (series.width ?? 2),
     ...(stepped ? { paths: stepped } : {}),
+    spanGaps: series.spanGaps === true,
     ...(series.dashed === true ? { dash: [6, 5] } : {}),
     points: series.points === true ? { show: true, size: 7, fill: color, stroke: color } : { show: false },
     value: (_plot, value: number | null) => formatNumber(value),

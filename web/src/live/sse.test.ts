@@ -6,7 +6,7 @@ describe("SseParser", () => {
     const stream = 'id: 7\nevent: progress\ndata: {"a":\ndata: 1}\n\n: ping\n\nid: 8\r\ndata:x\r\n\r\n';
     const whole = new SseParser().push(stream);
     const bytewise = new SseParser();
-    const pieces = [...stream].flatMap((character) => bytewise.push(character));
+    const pieces = stream.split(/(?:)/).flatMap((character) => bytewise.push(character));
     expect(whole).toEqual([
       { id: "7", type: "progress", data: '{"a":\n1}' },
       { id: "8", type: "message", data: "x" },

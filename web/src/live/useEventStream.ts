@@ -64,6 +64,9 @@ export function useEventStream({ url, onEvents }: Options): StreamHealth {
   return health;
 }
 
+/** Answers that will not change by asking again. */
+const REFUSALS = new Set([400, 401, 403, 404, 410]);
+
 async function follow(
   url: string,
   signal: AbortSignal,
@@ -77,8 +80,10 @@ async function follow(
         signal,
         headers: { accept: "text/event-stream", ...(lastId === "" ? {} : { "last-event-id": lastId }) },
       });
-      if (response.status === 204) return onLost("ended");
-      if ([401, 403, 404, 410].includes(response.status)) return onLost("refused");
+      if (response.status === 204 || REFUSALS.has(response.status)) {
+        onLost(response.status === 204 ? "ended" : "refused");
+        return;
+      }
       if (response.ok && response.body !== null) {
         attempt = 0;
         onSignal([]);
@@ -87,10 +92,8 @@ async function follow(
     } catch {
       // A lost connection and an abort look alike; the loop's condition tells them apart.
     }
-    if (!signal.aborted) {
-      onLost("reconnecting");
-      await pause(backoffMs(attempt, Math.random()), signal);
-    }
+    onLost("reconnecting");
+    await pause(backoffMs(attempt, Math.random()), signal);
   }
 }
 

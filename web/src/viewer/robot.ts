@@ -98,7 +98,7 @@ function shapesOf(link: URDFLink): THREE.Mesh[] {
   for (const child of link.children) {
     if ("isURDFJoint" in child) continue;
     child.traverse((node) => {
-      if (node instanceof THREE.Mesh) found.push(node);
+      if (node instanceof THREE.Mesh) found.push(node as THREE.Mesh);
     });
   }
   return found;

@@ -1,0 +1,129 @@
+// A new execution: what, where, how; the server's dry run beside it while it is filled in.
+
+import { useState, type SyntheticEvent } from "react";
+import { useNavigate, useSearchParams } from "react-router";
+import { useCreateJob } from "../../api/mutations";
+import { useActions, useRobots, useWorlds } from "../../api/queries";
+import type { Metric } from "../../api/types";
+import { Card, PageHead } from "../../ui/basics";
+import { Problem } from "../../ui/feedback";
+import { NumberField, SelectField } from "../../ui/fields";
+import { DryRun } from "./DryRun";
+import { EMPTY_FORM, requestOf, suggested, type JobForm } from "./jobForm";
+
+const METRICS: { value: Metric; label: string }[] = [
+  { value: "multivariate", label: "multivariate: all features jointly" },
+  { value: "sum_of_features", label: "sum of features: one path a feature" },
+  { value: "aquila", label: "aquila: as in the published runs" },
+];
+
+export function NewJobPage() {
+  const [search] = useSearchParams();
+  const [form, setForm] = useState<JobForm>({ ...EMPTY_FORM, action: search.get("action") ?? "" });
+  const navigate = useNavigate();
+  const create = useCreateJob();
+  const change = (part: Partial<JobForm>) => setForm((before) => ({ ...before, ...part }));
+  const text = (key: keyof JobForm) => ({ value: form[key], onChange: (value: string) => change({ [key]: value }) });
+
+  const request = requestOf(form);
+  const submit = (event: SyntheticEvent) => {
+    event.preventDefault();
+    if (request !== null) create.mutate(request, { onSuccess: (job) => void navigate(`/jobs/${job.id}`) });
+  };
+  return (
+    <>
+      <PageHead
+        title="New job"
+        lead="Finds the joint trajectory with which a robot produces an action's effects."
+        back={{ to: "/jobs", label: "Jobs" }}
+      />
+      <form className="columns wide-first" onSubmit={submit}>
+        <div className="stack">
+          <What form={form} change={change} />
+          <Card title="Method: steady-state tournament (SST)">
+            <div className="fields">
+              <NumberField label="Population P" hint="Individuals a goal starts with." min={3} required {...text("population")} />
+              <NumberField label="Stagnation S" hint="A goal ends after S + 1 generations without improvement." min={0} required {...text("stagnation")} />
+              <NumberField label="Mutation probability" hint="After each crossover, 0 to 1." min={0} max={1} step="any" required {...text("mutation")} />
+              <SelectField label="Metric" hint="How discrepancy is measured." options={METRICS} {...text("metric")} />
+            </div>
+          </Card>
+          <Card title="When a goal ends early">
+            <div className="fields">
+              <NumberField label="Tolerance" hint="An observation so near the goal is good enough, in the features' unit." min={0} step="any" {...text("tolerance")} />
+              <NumberField label="Target discrepancy" hint="Of the whole observation so far." min={0} step="any" {...text("target")} />
+              <NumberField label="Evaluations a goal at most" min={1} {...text("maxEvaluations")} />
+            </div>
+          </Card>
+          <Card title="Repetitions">
+            <div className="fields">
+              <NumberField label="Runs" hint="Run r uses seed + r." min={1} max={10_000} required {...text("repetitions")} />
+              <NumberField label="Seed" hint="Drawn and recorded when empty; the same seed gives the same bits." min={0} {...text("seed")} />
+              <NumberField label="Evaluations a second at most" hint="Slows a simulation down so that it can be watched." min={1} step="any" {...text("pace")} />
+            </div>
+          </Card>
+        </div>
+        <div className="stack">
+          <DryRun request={request} />
+          {create.error && <Problem error={create.error} title="The job was refused" />}
+          <button type="submit" className="button primary" disabled={request === null || create.isPending}>
+            {create.isPending ? "Starting…" : "Start job"}
+          </button>
+        </div>
+      </form>
+    </>
+  );
+}
+
+function What({ form, change }: { form: JobForm; change: (part: Partial<JobForm>) => void }) {
+  const actions = useActions().data?.pages.flatMap((page) => page.items) ?? [];
+  const robots = useRobots().data?.pages.flatMap((page) => page.items) ?? [];
+  const worlds = useWorlds().data?.pages.flatMap((page) => page.items) ?? [];
+  const action = actions.find((each) => each.id === form.action);
+  const observed = (features: { name: string }[]) => features.map((feature) => feature.name).join(", ");
+  const fits = (features: { name: string }[]) => action === undefined || observed(features) === observed(action.features);
+  const choose = (id: string) => {
+    const world = worlds.find((each) => each.id === id);
+    change({ world: id, ...(world === undefined ? {} : suggested(world)) });
+  };
+  return (
+    <Card title="What">
+      <div className="fields">
+        <SelectField
+          label="Action"
+          required
+          value={form.action}
+          onChange={(value) => change({ action: value })}
+          options={[
+            { value: "", label: actions.length === 0 ? "none yet: make one first" : "choose an action" },
+            ...actions.map((each) => ({ value: each.id, label: `${each.name}, version ${each.version} (${each.goals} goals)` })),
+          ]}
+        />
+        <SelectField
+          label="Robot"
+          required
+          value={form.robot}
+          onChange={(value) => change({ robot: value })}
+          options={[
+            { value: "", label: "choose a robot" },
+            ...robots.map((each) => ({ value: each.id, label: `${each.name}, version ${each.version}` })),
+          ]}
+        />
+        <SelectField
+          label="World"
+          required
+          hint="It must observe the action's features."
+          value={form.world}
+          onChange={choose}
+          options={[
+            { value: "", label: "choose a world" },
+            ...worlds.map((each) => ({
+              value: each.id,
+              label: `${each.name} (${observed(each.features)})${fits(each.features) ? "" : ": other features"}`,
+            })),
+          ]}
+        />
+      </div>
+    </Card>
+  );
+}
