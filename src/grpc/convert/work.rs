@@ -4,7 +4,7 @@ use super::{finite, finite_or_none, list, metric, reference, references, require
 use crate::app::AppError;
 use crate::app::jobs::{CreateJob, ExecutionRequest, GeneralizationRequest};
 use crate::framework::execution::ExecutionSpec;
-use crate::framework::optimizer::{MethodSpec, SstSpec};
+use crate::framework::optimizer::{BoundsRule, MethodSpec, SstSpec};
 use crate::grpc::proto;
 use proto::execution_spec::Method;
 use proto::work::Kind;
@@ -62,6 +62,8 @@ fn tournament(sst: &proto::SteadyStateTournament) -> Result<SstSpec, AppError> {
         stagnation: sst.stagnation.unwrap_or(default.stagnation),
         mutation_probability: finite("/execution/method/mutation_probability", probability)?,
         ecf_gene0_quirk: sst.ecf_gene0_quirk.unwrap_or(default.ecf_gene0_quirk),
+        bounds: if sst.open_bounds.unwrap_or(false) { BoundsRule::Open } else { BoundsRule::Clamp },
+        ecf_target_at_generation_end: sst.ecf_target_at_generation_end.unwrap_or(default.ecf_target_at_generation_end),
     })
 }
 
@@ -128,6 +130,8 @@ impl From<ExecutionSpec> for proto::ExecutionSpec {
             stagnation: Some(sst.stagnation),
             mutation_probability: Some(sst.mutation_probability),
             ecf_gene0_quirk: Some(sst.ecf_gene0_quirk),
+            open_bounds: Some(sst.bounds == BoundsRule::Open),
+            ecf_target_at_generation_end: Some(sst.ecf_target_at_generation_end),
         };
         Self {
             method: Some(Method::Sst(sst)),
