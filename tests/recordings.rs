@@ -1,5 +1,7 @@
 //! The framework on the recorded demonstrations of `../shared/data`, where present.
 
+#![expect(clippy::unwrap_used, reason = "a test's helper may fail the test")]
+
 use cgda::framework::demonstration::{
     ClockPolicy, Demonstration, Finding, FindingCode, ReadOptions, SourceFile, read, read_files,
 };

@@ -58,7 +58,9 @@ pub fn read_demonstrations(paths: &[PathBuf], arguments: &ReadArguments) -> anyh
             d.streams.iter().map(move |s| (format!("{}:{}", path.display(), s.name()), content_hash(s)))
         })
         .collect();
-    duplicate_content(&hashes).iter().for_each(|finding| eprintln!("{finding}"));
+    for finding in duplicate_content(&hashes) {
+        eprintln!("{finding}");
+    }
     Ok(demonstrations)
 }
 

@@ -3,7 +3,7 @@
 use super::table::{Findings, Table};
 use super::{ClockPolicy, Demonstration, Finding, FindingCode, Format, ReadOptions, Stream, StreamError};
 use super::{compare, csv, json, text, timing, yarp};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// One file of a bundle.
 #[derive(Debug, Clone, Copy)]
@@ -106,10 +106,10 @@ fn check_totals(tables: &[Table], options: &ReadOptions, findings: &mut Findings
     if samples > limits.samples {
         findings.too_large(&format!("{samples} samples"), &format!("{} samples", limits.samples), None);
     }
-    let mut seen = BTreeMap::new();
+    let mut seen = BTreeSet::new();
     for table in tables {
         text::check_names(table, findings);
-        if seen.insert(table.stream.to_lowercase(), ()).is_some() {
+        if !seen.insert(table.stream.to_lowercase()) {
             findings.push(
                 Finding::error(
                     FindingCode::DuplicateStream,

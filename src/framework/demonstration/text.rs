@@ -6,7 +6,7 @@ use super::{Finding, FindingCode, Format};
 /// UTF-8 without NUL and other control characters; a byte order mark is left out.
 pub(super) fn decode<'a>(bytes: &'a [u8], stream: &str, findings: &mut Findings) -> Option<&'a str> {
     let refuse = |findings: &mut Findings, at: usize, what: &str| {
-        let row = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count() as u64;
+        let row = bytes[..at].split(|b| *b == b'\n').count() as u64;
         findings.push(
             Finding::error(FindingCode::NotText, format!("{what} at byte {at}"), "save the file as UTF-8 text")
                 .in_stream(stream)

@@ -101,14 +101,14 @@ fn find<'a>(demonstration: &'a Demonstration, name: &str) -> Result<(&'a Stream,
 struct Column<'a> {
     demonstration: &'a Demonstration,
     stream: &'a Stream,
-    column: usize,
+    index: usize,
     start_s: f64,
     duration_s: f64,
 }
 
 impl Column<'_> {
     fn value(&self, sample: usize) -> f64 {
-        self.stream.row(sample)[self.column]
+        self.stream.row(sample)[self.index]
     }
 
     /// Linear in time between samples; `None` outside the stream.
@@ -143,8 +143,8 @@ fn columns<'a>(
         });
     }
     let column = |feature: &Feature| {
-        let (stream, column) = find(demonstration, &feature.name)?;
-        let unit = &stream.features()[column].unit;
+        let (stream, index) = find(demonstration, &feature.name)?;
+        let unit = &stream.features()[index].unit;
         if *unit != feature.unit {
             return Err(GeneralizeError::UnitMismatch {
                 demonstration: demonstration.name.clone(),
@@ -153,7 +153,7 @@ fn columns<'a>(
                 expected: feature.unit.clone(),
             });
         }
-        Ok(Column { demonstration, stream, column, start_s, duration_s: end_s - start_s })
+        Ok(Column { demonstration, stream, index, start_s, duration_s: end_s - start_s })
     };
     features.iter().map(column).collect()
 }

@@ -149,14 +149,10 @@ fn node(i: usize, n: usize) -> f64 {
 
 /// phi(|x - x_i|) for all nodes, then 1 and x where the kernel needs them.
 fn basis(x: f64, nodes: usize, terms: usize, kernel: RbfKernel, epsilon: f64) -> DVector<f64> {
-    DVector::from_fn(nodes + terms, |i, _| {
-        if i < nodes {
-            kernel.phi((x - node(i, nodes)).abs(), epsilon)
-        } else if i == nodes {
-            1.0
-        } else {
-            x
-        }
+    DVector::from_fn(nodes + terms, |i, _| match i.checked_sub(nodes) {
+        None => kernel.phi((x - node(i, nodes)).abs(), epsilon),
+        Some(0) => 1.0,
+        Some(_) => x,
     })
 }
 

@@ -49,7 +49,9 @@ pub fn observed_rows(demonstration: &Demonstration) -> Result<Goals, ObservedErr
     for (sample, &time_s) in first.time_s().iter().enumerate() {
         if (start_s..=end_s).contains(&time_s) {
             let mut row = first.row(sample).to_vec();
-            others.iter().for_each(|stream| push_at(stream, time_s, &mut row));
+            for stream in others {
+                push_at(stream, time_s, &mut row);
+            }
             rows.push(row);
         }
     }

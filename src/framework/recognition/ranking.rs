@@ -124,7 +124,7 @@ pub fn recognize(
             }
         }
     }
-    matches.sort_by(|a, b| a.relative_discrepancy.total_cmp(&b.relative_discrepancy).then_with(|| a.name.cmp(&b.name)));
+    rank(&mut matches);
     let recognized = matches.first().filter(|best| best.within_threshold).map(|best| best.name.clone());
     Ok(Recognition { recognized, metric: spec.metric, threshold, matches, incomparable })
 }
@@ -243,6 +243,16 @@ mod tests {
         assert!(relative.is_sorted());
         relative.dedup();
         assert_eq!(relative.len(), 3);
+    }
+
+    #[test]
+    fn actions_of_the_same_features_are_ranked_by_discrepancy() {
+        let wide = goals("mm", &[[0.0, 0.0], [100.0, 0.0]]);
+        let actions = vec![("narrow".to_owned(), goals("mm", &[[40.0, 0.0], [42.0, 0.0]])), ("wide".to_owned(), wide)];
+        let found = recognize(&goals("mm", &[[35.0, 0.0], [55.0, 0.0]]), &actions, &RecognizeSpec::default()).unwrap();
+        assert_eq!(found.matches[0].name, "narrow");
+        assert!(found.matches[0].discrepancy < found.matches[1].discrepancy);
+        assert!(found.matches[0].relative_discrepancy > found.matches[1].relative_discrepancy);
     }
 
     #[test]
