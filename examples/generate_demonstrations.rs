@@ -24,7 +24,7 @@ const WAX_GOALS_MM: [[f64; 3]; 9] = [
 ];
 
 /// One file: path below the directory, and content.
-type File = (String, String);
+pub type File = (String, String);
 
 fn main() -> std::io::Result<()> {
     let directory = std::env::args().nth(1).unwrap_or_else(|| "examples/demonstrations".to_owned());
@@ -38,7 +38,8 @@ fn main() -> std::io::Result<()> {
     Ok(())
 }
 
-fn files() -> Vec<File> {
+/// Every file with its content.
+pub fn files() -> Vec<File> {
     let wax = (0..4).map(|k| (format!("wax/demo-{}.csv", k + 1), wax(k)));
     let paint = (0..4).map(|k| (format!("paint/demo-{}.csv", k + 1), paint(k)));
     wax.chain(paint).chain((0..3).flat_map(iron)).collect()
