@@ -13,6 +13,7 @@ mod error;
 pub mod id;
 pub mod jobs;
 mod page;
+pub mod ports;
 pub mod recognitions;
 pub mod robots;
 pub mod runs;

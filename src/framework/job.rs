@@ -101,6 +101,31 @@ impl State {
         Self::Failed,
     ];
 
+    /// The name in JSON and in stores.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Queued => "QUEUED",
+            Self::Preparing => "PREPARING",
+            Self::Running => "RUNNING",
+            Self::Pausing => "PAUSING",
+            Self::Paused => "PAUSED",
+            Self::AwaitingApproval => "AWAITING_APPROVAL",
+            Self::Halted => "HALTED",
+            Self::Interrupted => "INTERRUPTED",
+            Self::Cancelling => "CANCELLING",
+            Self::Cancelled => "CANCELLED",
+            Self::Succeeded => "SUCCEEDED",
+            Self::Failed => "FAILED",
+        }
+    }
+
+    /// The state of that name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|state| state.as_str() == name)
+    }
+
     /// Whether the job ended: no event is accepted any more.
     #[must_use]
     pub fn is_final(self) -> bool {
@@ -126,14 +151,14 @@ impl State {
             (Queued, Event::Claim) => Preparing,
             (Preparing, Event::Start) | (AwaitingApproval, Event::Approve) | (Pausing, Event::Resume) => Running,
             (Preparing | Running, Event::Pause) => Pausing,
-            (Pausing, Event::Rest) | (Queued | Interrupted, Event::Pause) => Paused,
-            (Paused, Event::Resume) | (Halted, Event::Acknowledge) | (Interrupted, Event::Requeue) => Queued,
-            // A worker that shuts down gives back what it holds; what it was asked meanwhile is then done at once.
-            (Preparing | Running, Event::Requeue) => Queued,
+            (Pausing, Event::Rest | Event::LoseWorker) | (Queued | Interrupted, Event::Pause) => Paused,
+            // A worker that shuts down gives back what it holds.
+            (Paused, Event::Resume)
+            | (Halted, Event::Acknowledge)
+            | (Interrupted | Preparing | Running, Event::Requeue) => Queued,
             (Running, Event::AskApproval) => AwaitingApproval,
             (Preparing | Running | Pausing | AwaitingApproval | Cancelling, Event::Halt) => Halted,
             (Preparing | Running | AwaitingApproval, Event::LoseWorker) => Interrupted,
-            (Pausing, Event::LoseWorker) => Paused,
             (Preparing | Running | Pausing | AwaitingApproval, Event::Cancel) => Cancelling,
             (Queued | Paused | Halted | Interrupted, Event::Cancel) | (Cancelling, Event::Stop | Event::LoseWorker) => {
                 Cancelled
@@ -145,5 +170,162 @@ impl State {
             }
             (state, event) => return Err(InvalidTransition { state, event }),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use State::{
+        AwaitingApproval, Cancelled, Cancelling, Failed, Halted, Interrupted, Paused, Pausing, Preparing, Queued,
+        Running, Succeeded,
+    };
+
+    const EVENTS: [Event; 15] = [
+        Event::Claim,
+        Event::Start,
+        Event::Pause,
+        Event::Rest,
+        Event::Resume,
+        Event::AskApproval,
+        Event::Approve,
+        Event::Halt,
+        Event::Acknowledge,
+        Event::LoseWorker,
+        Event::Requeue,
+        Event::Cancel,
+        Event::Stop,
+        Event::Succeed,
+        Event::Fail,
+    ];
+
+    /// One row a state, one column an event of [`EVENTS`].
+    fn table() -> [[Option<State>; 15]; 12] {
+        let no = None;
+        let to = Some;
+        [
+            // Claim, Start, Pause, Rest, Resume, AskApproval, Approve, Halt, Acknowledge, LoseWorker, Requeue, Cancel,
+            // Stop, Succeed, Fail
+            [to(Preparing), no, to(Paused), no, no, no, no, no, no, no, no, to(Cancelled), no, no, to(Failed)],
+            [
+                no,
+                to(Running),
+                to(Pausing),
+                no,
+                no,
+                no,
+                no,
+                to(Halted),
+                no,
+                to(Interrupted),
+                to(Queued),
+                to(Cancelling),
+                no,
+                no,
+                to(Failed),
+            ],
+            [
+                no,
+                no,
+                to(Pausing),
+                no,
+                no,
+                to(AwaitingApproval),
+                no,
+                to(Halted),
+                no,
+                to(Interrupted),
+                to(Queued),
+                to(Cancelling),
+                no,
+                to(Succeeded),
+                to(Failed),
+            ],
+            [
+                no,
+                no,
+                no,
+                to(Paused),
+                to(Running),
+                no,
+                no,
+                to(Halted),
+                no,
+                to(Paused),
+                no,
+                to(Cancelling),
+                no,
+                to(Succeeded),
+                to(Failed),
+            ],
+            [no, no, no, no, to(Queued), no, no, no, no, no, no, to(Cancelled), no, no, no],
+            [
+                no,
+                no,
+                no,
+                no,
+                no,
+                no,
+                to(Running),
+                to(Halted),
+                no,
+                to(Interrupted),
+                no,
+                to(Cancelling),
+                no,
+                no,
+                to(Failed),
+            ],
+            [no, no, no, no, no, no, no, no, to(Queued), no, no, to(Cancelled), no, no, no],
+            [no, no, to(Paused), no, no, no, no, no, no, no, to(Queued), to(Cancelled), no, no, to(Failed)],
+            [
+                no,
+                no,
+                no,
+                no,
+                no,
+                no,
+                no,
+                to(Halted),
+                no,
+                to(Cancelled),
+                no,
+                no,
+                to(Cancelled),
+                to(Succeeded),
+                to(Failed),
+            ],
+            [no; 15],
+            [no; 15],
+            [no; 15],
+        ]
+    }
+
+    #[test]
+    fn every_state_answers_every_event_as_the_table_says() {
+        for (state, row) in State::ALL.into_iter().zip(table()) {
+            for (event, expected) in EVENTS.into_iter().zip(row) {
+                let found = state.apply(event);
+                assert_eq!(found, expected.ok_or(InvalidTransition { state, event }), "{state:?} {event:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_final_states_are_dead_ends_and_they_are_held_by_nobody() {
+        for state in State::ALL {
+            let accepts = EVENTS.into_iter().any(|event| state.apply(event).is_ok());
+            assert_eq!(accepts, !state.is_final(), "{state:?}");
+            assert!(!(state.is_final() && state.is_held()), "{state:?}");
+        }
+    }
+
+    #[test]
+    fn names_are_those_of_json() {
+        for state in State::ALL {
+            assert_eq!(serde_json::to_value(state).unwrap(), state.as_str());
+            assert_eq!(State::from_name(state.as_str()), Some(state));
+        }
+        assert_eq!(State::from_name("queued"), None);
     }
 }

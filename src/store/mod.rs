@@ -1,1 +1,3 @@
-//! Engines behind the Store port.
+//! Engines behind the Store port; `suite.rs` is what each of them must pass.
+
+pub mod sqlite;

@@ -1,11 +1,14 @@
 //! Jobs: submitted once, run durably, watched by events with a durable sequence.
 
 mod types;
+mod work;
 
 pub use types::{
     CostEstimate, CreateJob, EventData, EventPage, ExecutionRequest, GeneralizationRequest, GoalProgress, JobEvent,
     JobFailure, JobFilter, JobKind, JobProgress, JobResult, JobView, Validation,
 };
+
+pub use work::{ExecutionWork, Work};
 
 use crate::app::id::JobId;
 use crate::app::{App, AppError, Page, PageQuery};

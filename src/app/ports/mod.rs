@@ -1,0 +1,14 @@
+//! What the use-cases need from outside: storage, time, ids and seeds, wake-ups.
+
+mod clock;
+mod events;
+mod ids;
+mod store;
+
+pub use clock::{Clock, SystemClock};
+pub use events::{Events, LocalEvents, Wake};
+pub use ids::{Ids, SystemIds};
+pub use store::{
+    Advance, Claim, Claimed, IdempotencyKey, NewDemonstration, NewJob, NewRobot, NewRun, Store, StoreError, Submitted,
+    Transition, Usage,
+};
