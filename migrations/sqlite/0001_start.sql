@@ -19,6 +19,8 @@ CREATE TABLE demonstrations (
     report TEXT NOT NULL
 ) STRICT;
 
+CREATE INDEX demonstrations_by_content ON demonstrations (sha256);
+
 CREATE TABLE demonstration_samples (
     demonstration_id TEXT PRIMARY KEY REFERENCES demonstrations (id) ON DELETE CASCADE,
     sha256 TEXT NOT NULL,

@@ -26,25 +26,98 @@ pub use error::{AppError, ErrorKind, FieldError};
 pub use page::{DEFAULT_PAGE_SIZE, Keyset, MAX_PAGE_SIZE, Page, PageQuery};
 pub use time::Timestamp;
 
+use ports::{Clock, Events, Ids, Store};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What the service is plugged into.
+#[derive(Clone)]
+pub struct Ports {
+    /// Durable storage.
+    pub store: Arc<dyn Store>,
+    /// Time.
+    pub clock: Arc<dyn Clock>,
+    /// Ids and seeds.
+    pub ids: Arc<dyn Ids>,
+    /// Wake-ups.
+    pub events: Arc<dyn Events>,
+}
 
 /// The service; clones share everything.
 #[derive(Clone)]
 pub struct App {
-    inner: Arc<Inner>,
+    ports: Ports,
+    ready: Arc<AtomicBool>,
 }
 
-struct Inner {}
-
 impl App {
-    fn unfinished(&self) -> AppError {
-        let _ = &self.inner;
-        AppError::unavailable("starting", "the service is starting")
+    /// The service on these ports; not ready yet.
+    #[must_use]
+    pub fn new(ports: Ports) -> Self {
+        Self { ports, ready: Arc::new(AtomicBool::new(false)) }
     }
 
-    /// Whether requests can be answered and workers run.
+    /// Whether workers run and the server is not stopping.
     #[must_use]
     pub fn is_ready(&self) -> bool {
-        Arc::strong_count(&self.inner) > 0
+        self.ready.load(Ordering::Acquire)
     }
+
+    /// Tells whether workers run; `false` as soon as the server is asked to stop.
+    pub fn set_ready(&self, ready: bool) {
+        self.ready.store(ready, Ordering::Release);
+    }
+
+    /// What the service is plugged into, for the workers.
+    #[must_use]
+    pub fn ports(&self) -> &Ports {
+        &self.ports
+    }
+
+    fn now(&self) -> Timestamp {
+        self.ports.clock.now()
+    }
+}
+
+/// A display name without control characters, 1 to 128 characters long.
+fn check_name(pointer: &str, name: &str) -> Result<(), AppError> {
+    let length = name.chars().count();
+    // Beside control characters those that turn the direction of text around or are not seen.
+    let hidden = |c: char| {
+        c.is_control() || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+    };
+    if name.trim().is_empty() || length > 128 || name.chars().any(hidden) {
+        let detail = format!("a name has 1 to 128 visible characters, this one has {length}");
+        return Err(AppError::field(pointer, "invalid_name", detail));
+    }
+    Ok(())
+}
+
+/// Runs CPU work away from the tasks that answer requests.
+async fn compute<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Result<T, AppError> {
+    tokio::task::spawn_blocking(work).await.map_err(AppError::internal)
+}
+
+/// A number of a query that is out of its bounds.
+fn out_of_bounds(name: &str, value: impl std::fmt::Display, bounds: &str) -> AppError {
+    AppError::new(ErrorKind::Malformed, "invalid_query", format!("{name} is {value}: give {bounds}"))
+}
+
+/// A format that an export does not have.
+fn unknown_format(format: &str, known: &str) -> AppError {
+    AppError::new(ErrorKind::Malformed, "unknown_format", format!("there is no format {format:?}: give {known}"))
+}
+
+/// The error of a list of chosen things, with its whole chain of causes in one line.
+fn chain_text(error: &(dyn std::error::Error + 'static)) -> String {
+    let mut text = error.to_string();
+    let mut next = error.source();
+    while let Some(cause) = next {
+        let cause_text = cause.to_string();
+        if !text.contains(&cause_text) {
+            text = format!("{text}: {cause_text}");
+        }
+        next = cause.source();
+    }
+    text
 }

@@ -1,9 +1,13 @@
 //! Robots: a URDF and the part of it that moves; every version is immutable.
 
 use crate::app::id::RobotId;
-use crate::app::{App, AppError, Page, PageQuery, Timestamp};
-use crate::framework::robot::RobotSpec;
+use crate::app::ports::NewRobot;
+use crate::app::{App, AppError, Keyset, Page, PageQuery, Timestamp, chain_text, check_name, compute};
+use crate::framework::robot::{
+    Chain, ChainSummary, RobotModel, RobotSpec, RobotSummary, summarize, summarize_chain,
+};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
 use utoipa::ToSchema;
 
 /// A new robot, or a new version of one when the name is taken.
@@ -28,9 +32,11 @@ pub struct RobotView {
     pub name: String,
     /// 1 for the first of that name, then counted up.
     pub version: u32,
-    /// Chain, free joints, tool.
+    /// Chain, free joints, tool, as they were given.
     pub spec: RobotSpec,
-    /// What the chain is made of.
+    /// The part that moves.
+    pub chain: ChainSummary,
+    /// The whole robot.
     pub summary: RobotSummary,
     /// SHA-256 of the URDF, hexadecimal.
     pub urdf_sha256: String,
@@ -38,36 +44,12 @@ pub struct RobotView {
     pub created_at: Timestamp,
 }
 
-/// What a chain is made of.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct RobotSummary {
-    /// Number of links of the whole robot.
-    pub links: u32,
-    /// First link of the chain.
-    pub base_link: String,
-    /// Last link of the chain.
-    pub tip_link: String,
-    /// Movable joints of the chain, base first.
-    pub joints: Vec<JointSummary>,
-}
-
-/// One movable joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct JointSummary {
-    /// Joint name.
-    pub name: String,
-    /// `revolute`, `continuous` or `prismatic`.
-    pub kind: String,
-    /// Whether an optimiser moves it.
-    pub free: bool,
-    /// Lower limit, rad or m; absent without limit.
-    pub lower: Option<f64>,
-    /// Upper limit, rad or m; absent without limit.
-    pub upper: Option<f64>,
-    /// Velocity limit, rad/s or m/s.
-    pub velocity: Option<f64>,
-    /// Acceleration limit, rad/s^2 or m/s^2.
-    pub acceleration: Option<f64>,
+fn read(urdf: &str, spec: &RobotSpec) -> Result<(RobotSummary, ChainSummary), AppError> {
+    let model = RobotModel::from_urdf(urdf)
+        .map_err(|error| AppError::field("/urdf", "invalid_urdf", chain_text(&error)))?;
+    let chain =
+        Chain::new(&model, spec).map_err(|error| AppError::field("/spec", "invalid_chain", chain_text(&error)))?;
+    Ok((summarize(&model), summarize_chain(&chain)))
 }
 
 impl App {
@@ -76,8 +58,25 @@ impl App {
     /// # Errors
     /// `Invalid` when the URDF or the chain is wrong.
     pub async fn create_robot(&self, request: CreateRobot) -> Result<RobotView, AppError> {
-        let _ = request;
-        Err(self.unfinished())
+        let CreateRobot { name, urdf, spec } = request;
+        check_name("/name", &name)?;
+        let (urdf, spec, read) = compute(move || {
+            let read = read(&urdf, &spec);
+            (urdf, spec, read)
+        })
+        .await?;
+        let (summary, chain) = read?;
+        let view = RobotView {
+            id: RobotId::from_uuid(self.ports.ids.uuid()),
+            name,
+            version: 0,
+            spec,
+            chain,
+            summary,
+            urdf_sha256: hex::encode(Sha256::digest(urdf.as_bytes())),
+            created_at: self.now(),
+        };
+        Ok(self.ports.store.insert_robot(NewRobot { view, urdf }).await?)
     }
 
     /// Newest first.
@@ -85,8 +84,9 @@ impl App {
     /// # Errors
     /// `Malformed` page.
     pub async fn list_robots(&self, page: PageQuery) -> Result<Page<RobotView>, AppError> {
-        let _ = page;
-        Err(self.unfinished())
+        let keyset = Keyset::new(&page, "robots")?;
+        let robots = self.ports.store.robots(&keyset).await?;
+        Ok(keyset.page(robots, |robot| robot.id.to_string()))
     }
 
     /// One robot.
@@ -94,8 +94,7 @@ impl App {
     /// # Errors
     /// `NotFound`.
     pub async fn get_robot(&self, id: &RobotId) -> Result<RobotView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.robot(id).await?)
     }
 
     /// Its URDF, as it was uploaded.
@@ -103,8 +102,7 @@ impl App {
     /// # Errors
     /// `NotFound`.
     pub async fn robot_urdf(&self, id: &RobotId) -> Result<String, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.robot_urdf(id).await?)
     }
 
     /// Deletes it unless a job names it.
@@ -112,7 +110,6 @@ impl App {
     /// # Errors
     /// `NotFound`; `Conflict` when jobs name it.
     pub async fn delete_robot(&self, id: &RobotId) -> Result<(), AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.delete_robot(id).await?)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::app::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::trajectories::TrajectoryView;
-use crate::app::{App, AppError, Page, PageQuery, Timestamp};
+use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, Timestamp, out_of_bounds};
 use crate::framework::Feature;
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
@@ -112,8 +112,9 @@ impl App {
     /// # Errors
     /// `Malformed` page.
     pub async fn list_runs(&self, filter: RunFilter, page: PageQuery) -> Result<Page<RunView>, AppError> {
-        let _ = (filter, page);
-        Err(self.unfinished())
+        let keyset = Keyset::new(&page, &format!("runs {filter:?}"))?;
+        let runs = self.ports.store.runs(&filter, &keyset).await?;
+        Ok(keyset.page(runs, |run| run.id.to_string()))
     }
 
     /// One run.
@@ -121,8 +122,7 @@ impl App {
     /// # Errors
     /// `NotFound`.
     pub async fn get_run(&self, id: &RunId) -> Result<RunView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.run(id).await?)
     }
 
     /// Its goals.
@@ -130,17 +130,30 @@ impl App {
     /// # Errors
     /// `NotFound`.
     pub async fn run_goals(&self, id: &RunId) -> Result<RunGoals, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.run_goals(id).await?)
     }
 
-    /// Its convergence, at most `max_points` points.
+    /// Its convergence: where each goal ended, at most `max_points` (2 to 10000) evenly chosen points with the first
+    /// and the last.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` number.
     pub async fn run_convergence(&self, id: &RunId, max_points: Option<u32>) -> Result<Convergence, AppError> {
-        let _ = (id, max_points);
-        Err(self.unfinished())
+        let max_points = max_points.unwrap_or(1000);
+        if !(2..=10_000).contains(&max_points) {
+            return Err(out_of_bounds("max_points", max_points, "2 to 10000"));
+        }
+        let goals = self.run_goals(id).await?;
+        let mut evaluations = 0;
+        let all: Vec<ConvergencePoint> = goals
+            .goals
+            .iter()
+            .map(|goal| {
+                evaluations += goal.evaluations;
+                ConvergencePoint { goal_index: goal.index, evaluations, discrepancy: goal.discrepancy }
+            })
+            .collect();
+        Ok(Convergence { run: id.clone(), points: thin(&all, max_points as usize) })
     }
 
     /// Its trajectory.
@@ -148,7 +161,32 @@ impl App {
     /// # Errors
     /// `NotFound` run, or the run has no trajectory.
     pub async fn run_trajectory(&self, id: &RunId) -> Result<TrajectoryView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        let run = self.get_run(id).await?;
+        let Some(trajectory) = run.trajectory else {
+            let why = run.trajectory_problem.unwrap_or_else(|| "none was made".to_owned());
+            return Err(AppError::new(ErrorKind::NotFound, "no_trajectory", format!("{id} has no trajectory: {why}")));
+        };
+        self.get_trajectory(&trajectory).await
+    }
+}
+
+/// At most `most` (>= 2) of `all`, evenly chosen, with the first and the last.
+fn thin<T: Copy>(all: &[T], most: usize) -> Vec<T> {
+    if all.len() <= most {
+        return all.to_vec();
+    }
+    (0..most).map(|i| all[i * (all.len() - 1) / (most - 1)]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thinning_keeps_both_ends_and_the_order() {
+        let all: Vec<u32> = (0..100).collect();
+        assert_eq!(thin(&all, 4), [0, 33, 66, 99]);
+        assert_eq!(thin(&all, 2), [0, 99]);
+        assert_eq!(thin(&all[..3], 4), [0, 1, 2]);
     }
 }

@@ -1,9 +1,9 @@
 //! Worlds: where effects happen.
 
 use crate::app::id::WorldId;
-use crate::app::{App, AppError, Page, PageQuery, Timestamp};
+use crate::app::{App, AppError, Keyset, Page, PageQuery, Timestamp, chain_text, check_name};
 use crate::framework::Feature;
-use crate::framework::world::WorldSpec;
+use crate::framework::world::{self, WorldSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -38,8 +38,13 @@ impl App {
     /// # Errors
     /// `Invalid` world.
     pub async fn create_world(&self, request: CreateWorld) -> Result<WorldView, AppError> {
-        let _ = request;
-        Err(self.unfinished())
+        check_name("/name", &request.name)?;
+        let features = world::features(&request.spec)
+            .map_err(|error| AppError::field("/spec", "invalid_world", chain_text(&error)))?;
+        let id = WorldId::from_uuid(self.ports.ids.uuid());
+        let view = WorldView { id, name: request.name, spec: request.spec, features, created_at: self.now() };
+        self.ports.store.insert_world(view.clone()).await?;
+        Ok(view)
     }
 
     /// Newest first.
@@ -47,8 +52,9 @@ impl App {
     /// # Errors
     /// `Malformed` page.
     pub async fn list_worlds(&self, page: PageQuery) -> Result<Page<WorldView>, AppError> {
-        let _ = page;
-        Err(self.unfinished())
+        let keyset = Keyset::new(&page, "worlds")?;
+        let worlds = self.ports.store.worlds(&keyset).await?;
+        Ok(keyset.page(worlds, |world| world.id.to_string()))
     }
 
     /// One world.
@@ -56,8 +62,7 @@ impl App {
     /// # Errors
     /// `NotFound`.
     pub async fn get_world(&self, id: &WorldId) -> Result<WorldView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.world(id).await?)
     }
 
     /// Deletes it unless a job names it.
@@ -65,7 +70,6 @@ impl App {
     /// # Errors
     /// `NotFound`; `Conflict` when jobs name it.
     pub async fn delete_world(&self, id: &WorldId) -> Result<(), AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.delete_world(id).await?)
     }
 }

@@ -1,37 +1,71 @@
 //! Jobs: submitted once, run durably, watched by events with a durable sequence.
 
+mod resolve;
 mod types;
+mod watch;
 mod work;
 
 pub use types::{
     CostEstimate, CreateJob, EventData, EventPage, ExecutionRequest, GeneralizationRequest, GoalProgress, JobEvent,
     JobFailure, JobFilter, JobKind, JobProgress, JobResult, JobView, Validation,
 };
-
 pub use work::{ExecutionWork, Work};
 
 use crate::app::id::JobId;
-use crate::app::{App, AppError, Page, PageQuery};
-use futures_util::stream::BoxStream;
-use std::time::Duration;
+use crate::app::ports::{IdempotencyKey, NewJob, Submitted, Transition, Wake};
+use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, out_of_bounds};
+use crate::framework::job::{Event, State};
+use resolve::Resolved;
+use sha2::{Digest as _, Sha256};
+
+/// Most events of one answer.
+const MAX_EVENTS: u32 = 1000;
 
 impl App {
-    /// Checks a job as [`App::create_job`] would, creates nothing and estimates its cost.
-    ///
-    /// # Errors
-    /// Only when the service is at fault: what is wrong with the request is in the answer.
-    pub async fn validate_job(&self, request: CreateJob) -> Result<Validation, AppError> {
-        let _ = request;
-        Err(self.unfinished())
-    }
-
     /// Resolves and submits a job.
     ///
     /// # Errors
     /// `Invalid` request, or a key that was used with another body; `NotFound` never: a wrong reference is `Invalid`.
     pub async fn create_job(&self, request: CreateJob, idempotency_key: Option<String>) -> Result<JobView, AppError> {
-        let _ = (request, idempotency_key);
-        Err(self.unfinished())
+        let body = serde_json::to_vec(&request).map_err(AppError::internal)?;
+        let key = idempotency_key.map(|key| checked_key(key, &body)).transpose()?;
+        // What was submitted before is answered even if what it names is gone meanwhile.
+        if let Some(key) = &key
+            && let Some(job) = self.ports.store.submitted(key).await?
+        {
+            return Ok(job);
+        }
+        let resolved = self.resolve(request).await?;
+        self.submit(resolved, key).await
+    }
+
+    async fn submit(&self, resolved: Resolved, key: Option<IdempotencyKey>) -> Result<JobView, AppError> {
+        let now = self.now();
+        let view = JobView {
+            id: JobId::from_uuid(self.ports.ids.uuid()),
+            kind: resolved.work.kind(),
+            name: resolved.name,
+            state: State::Queued,
+            state_reason: None,
+            state_since: now,
+            attempt: 0,
+            progress: resolved.progress,
+            request: resolved.request,
+            result: JobResult::default(),
+            failure: None,
+            last_seq: 0,
+            created_at: now,
+            started_at: None,
+            finished_at: None,
+        };
+        let new = NewJob { view, work: resolved.work, uses: resolved.uses };
+        match self.ports.store.submit(new, key).await? {
+            Submitted::Created(job) => {
+                self.ports.events.publish(Wake::Queued);
+                Ok(job)
+            }
+            Submitted::Existing(job) => Ok(job),
+        }
     }
 
     /// Newest first.
@@ -39,8 +73,9 @@ impl App {
     /// # Errors
     /// `Malformed` page.
     pub async fn list_jobs(&self, filter: JobFilter, page: PageQuery) -> Result<Page<JobView>, AppError> {
-        let _ = (filter, page);
-        Err(self.unfinished())
+        let keyset = Keyset::new(&page, &format!("jobs {filter:?}"))?;
+        let jobs = self.ports.store.jobs(&filter, &keyset).await?;
+        Ok(keyset.page(jobs, |job| job.id.to_string()))
     }
 
     /// One job.
@@ -48,8 +83,7 @@ impl App {
     /// # Errors
     /// `NotFound`.
     pub async fn get_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.job(id).await?)
     }
 
     /// Asks it to rest at its next checkpoint.
@@ -57,8 +91,7 @@ impl App {
     /// # Errors
     /// `NotFound`; `Conflict` when its state does not allow it.
     pub async fn pause_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        self.ask(id, Event::Pause).await
     }
 
     /// Lets a paused job go on.
@@ -66,8 +99,7 @@ impl App {
     /// # Errors
     /// `NotFound`; `Conflict` when its state does not allow it.
     pub async fn resume_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        self.ask(id, Event::Resume).await
     }
 
     /// Asks it to end without a result; finished runs are kept.
@@ -75,8 +107,7 @@ impl App {
     /// # Errors
     /// `NotFound`; `Conflict` when it ended already.
     pub async fn cancel_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        self.ask(id, Event::Cancel).await
     }
 
     /// Lets a halted job wait for a worker again.
@@ -84,47 +115,46 @@ impl App {
     /// # Errors
     /// `NotFound`; `Conflict` when it is not halted.
     pub async fn acknowledge_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        self.ask(id, Event::Acknowledge).await
+    }
+
+    async fn ask(&self, id: &JobId, event: Event) -> Result<JobView, AppError> {
+        let job = self.ports.store.ask(id, Transition::plain(event), self.now()).await?;
+        self.ports.events.publish(Wake::Job(id.clone()));
+        if job.state == State::Queued {
+            self.ports.events.publish(Wake::Queued);
+        }
+        Ok(job)
     }
 
     /// Submits the same resolved job again, with the same seed.
     ///
     /// # Errors
-    /// `NotFound`; as [`App::create_job`].
+    /// `NotFound`; by idempotency as [`App::create_job`].
     pub async fn clone_job(&self, id: &JobId, idempotency_key: Option<String>) -> Result<JobView, AppError> {
-        let _ = (id, idempotency_key);
-        Err(self.unfinished())
+        let key = idempotency_key.map(|key| checked_key(key, format!("clone {id}").as_bytes())).transpose()?;
+        let job = self.get_job(id).await?;
+        let work = self.ports.store.work(id).await?;
+        let resolved = Resolved::again(job.name, job.request, work);
+        self.submit(resolved, key).await
     }
 
-    /// Events after `after_seq` (0 is from the first), at most `limit`.
+    /// Events after `after_seq` (0 is from the first), at most `limit` (1 to 1000).
     ///
     /// # Errors
-    /// `NotFound`.
+    /// `NotFound`; `Malformed` limit.
     pub async fn job_events(&self, id: &JobId, after_seq: u64, limit: u32) -> Result<EventPage, AppError> {
-        let _ = (id, after_seq, limit);
-        Err(self.unfinished())
+        if limit == 0 || limit > MAX_EVENTS {
+            return Err(out_of_bounds("limit", limit, "1 to 1000"));
+        }
+        Ok(self.ports.store.events(id, after_seq, limit).await?)
     }
+}
 
-    /// Every event after `after_seq`, first those stored, then as they come; ends after the event of a final state.
-    ///
-    /// # Errors
-    /// `NotFound`. The stream itself ends with an error when the store fails.
-    pub async fn watch_job(
-        &self,
-        id: &JobId,
-        after_seq: u64,
-    ) -> Result<BoxStream<'static, Result<JobEvent, AppError>>, AppError> {
-        let _ = (id, after_seq);
-        Err(self.unfinished())
+fn checked_key(key: String, body: &[u8]) -> Result<IdempotencyKey, AppError> {
+    if key.is_empty() || key.len() > 255 || !key.bytes().all(|b| b.is_ascii_graphic() || b == b' ') {
+        let message = format!("an idempotency key has 1 to 255 visible ASCII characters, this one has {}", key.len());
+        return Err(AppError::new(ErrorKind::Malformed, "invalid_idempotency_key", message));
     }
-
-    /// The job as soon as it has an event after `after_seq` or is final, at the latest after `timeout` (at most 60 s).
-    ///
-    /// # Errors
-    /// `NotFound`.
-    pub async fn wait_job(&self, id: &JobId, after_seq: u64, timeout: Duration) -> Result<JobView, AppError> {
-        let _ = (id, after_seq, timeout);
-        Err(self.unfinished())
-    }
+    Ok(IdempotencyKey { key, body_sha256: hex::encode(Sha256::digest(body)) })
 }

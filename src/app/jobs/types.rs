@@ -230,6 +230,8 @@ pub enum EventData {
         /// How far it is.
         progress: JobProgress,
     },
+    /// Events before this one are not kept or were never there: read the job anew. Sent, never stored.
+    Resync,
     /// A goal ended.
     Goal {
         /// The goal.

@@ -248,6 +248,8 @@ pub trait Store: Send + Sync {
     async fn demonstration_samples(&self, id: &DemonstrationId) -> Result<Vec<u8>, StoreError>;
     /// One item more than `keyset.limit`, newest first; likewise every list.
     async fn demonstrations(&self, keyset: &Keyset) -> Result<Vec<DemonstrationView>, StoreError>;
+    /// Those whose samples have this digest.
+    async fn demonstrations_with_content(&self, sha256: &str) -> Result<Vec<DemonstrationId>, StoreError>;
     /// Changes a demonstration and counts its revision up.
     async fn patch_demonstration(
         &self,

@@ -5,6 +5,7 @@ use super::statements::statements;
 use super::{SqliteStore, engine_error};
 use crate::app::Keyset;
 use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
+use crate::app::id::DemonstrationId;
 use crate::app::ports::{NewDemonstration, StoreError};
 use sqlx::sqlite::SqliteConnection;
 
@@ -16,6 +17,7 @@ statements! {
     REPORT = "SELECT report FROM demonstrations WHERE id = ?1";
     SAMPLES = "SELECT sha256, data FROM demonstration_samples WHERE demonstration_id = ?1";
     PAGE = "SELECT view FROM demonstrations WHERE (?1 IS NULL OR id < ?1) ORDER BY id DESC LIMIT ?2";
+    WITH_CONTENT = "SELECT view FROM demonstrations WHERE sha256 = ?1 ORDER BY id";
     UPDATE = "UPDATE demonstrations SET name = ?2, revision = ?3, excluded = ?4, view = ?5 WHERE id = ?1";
     DELETE = "DELETE FROM demonstrations WHERE id = ?1";
 }
@@ -71,6 +73,12 @@ pub(super) async fn samples(store: &SqliteStore, id: &str) -> Result<Vec<u8>, St
 
 pub(super) async fn list(store: &SqliteStore, keyset: &Keyset) -> Result<Vec<DemonstrationView>, StoreError> {
     page(&store.readers, PAGE, keyset).await
+}
+
+pub(super) async fn with_content(store: &SqliteStore, sha256: &str) -> Result<Vec<DemonstrationId>, StoreError> {
+    let rows: Vec<String> =
+        sqlx::query_scalar(WITH_CONTENT).bind(sha256).fetch_all(&store.readers).await.map_err(engine_error)?;
+    rows.iter().map(|text| value::<DemonstrationView>("demonstration", text).map(|view| view.id)).collect()
 }
 
 pub(super) async fn patch(

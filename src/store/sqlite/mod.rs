@@ -107,6 +107,9 @@ impl Store for SqliteStore {
     async fn demonstrations(&self, keyset: &Keyset) -> Result<Vec<DemonstrationView>, StoreError> {
         demonstrations::list(self, keyset).await
     }
+    async fn demonstrations_with_content(&self, sha256: &str) -> Result<Vec<DemonstrationId>, StoreError> {
+        demonstrations::with_content(self, sha256).await
+    }
     async fn patch_demonstration(
         &self,
         id: &DemonstrationId,

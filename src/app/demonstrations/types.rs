@@ -1,9 +1,11 @@
-//! Demonstrations: upload with findings, look, exclude, decimate, export.
+//! Requests for demonstrations, and what is shown of them.
 
+use crate::app::Timestamp;
 use crate::app::id::DemonstrationId;
-use crate::app::{App, AppError, FieldError, Page, PageQuery, Timestamp};
 use crate::framework::Feature;
+use crate::framework::demonstration::{ClockPolicy, Finding, Format, ReadOptions};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
 /// One uploaded file.
@@ -18,7 +20,7 @@ pub struct UploadFile {
 /// An upload: one file, or several that were recorded together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UploadDemonstration {
-    /// Display name; the first file's name when absent.
+    /// Display name; the data's own name or the first file's when absent.
     pub name: Option<String>,
     /// At least one file.
     pub files: Vec<UploadFile>,
@@ -30,16 +32,35 @@ pub struct UploadDemonstration {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct UploadOptions {
-    /// `csv`, `yarp`, `reduced` or `json`; recognised from the content when absent.
-    pub format: Option<String>,
-    /// What to do with streams whose clocks differ: `report` or `align_start`.
-    pub clock_policy: Option<String>,
-    /// Name of the time column; the first column when absent.
+    /// The form of the files; found from their content when absent.
+    pub format: Option<Format>,
+    /// What to do about clocks that disagree.
+    pub clock_policy: ClockPolicy,
+    /// Header of the time column; `time`, `time_s`, `t` or `timestamp` when absent.
     pub time_column: Option<String>,
-    /// Names of the features of files without a header, in column order.
-    pub features: Option<Vec<String>>,
-    /// Units by feature name.
-    pub units: std::collections::BTreeMap<String, String>,
+    /// Features of files without header, in column order after id and time.
+    pub features: Vec<Feature>,
+    /// As `features`, by stream name.
+    pub stream_features: BTreeMap<String, Vec<Feature>>,
+    /// Units by feature name; they win over those of the header.
+    pub units: BTreeMap<String, String>,
+}
+
+impl UploadOptions {
+    /// With the service's limits.
+    #[must_use]
+    pub fn read_options(self, name: Option<String>) -> ReadOptions {
+        ReadOptions {
+            name,
+            format: self.format,
+            clock_policy: self.clock_policy,
+            time_column: self.time_column,
+            features: self.features,
+            stream_features: self.stream_features,
+            units: self.units,
+            ..ReadOptions::default()
+        }
+    }
 }
 
 /// A demonstration without its samples.
@@ -55,9 +76,9 @@ pub struct DemonstrationView {
     pub excluded: Option<String>,
     /// Streams.
     pub streams: Vec<StreamView>,
-    /// Longest duration of its streams, seconds.
+    /// From the first to the last sample of all streams, seconds.
     pub duration_s: f64,
-    /// SHA-256 of the uploaded bytes, hexadecimal.
+    /// SHA-256 over the streams' samples, hexadecimal.
     pub sha256: String,
     /// Number of findings of the reader.
     pub findings: u32,
@@ -74,7 +95,7 @@ pub struct StreamView {
     pub features: Vec<Feature>,
     /// Number of samples.
     pub samples: u64,
-    /// Time of the first sample, seconds.
+    /// Time of the first sample, the recorder's seconds.
     pub start_s: f64,
     /// Duration, seconds.
     pub duration_s: f64,
@@ -86,7 +107,7 @@ pub struct DemonstrationReport {
     /// The demonstration.
     pub demonstration: DemonstrationId,
     /// Findings in the order of the data.
-    pub findings: Vec<FieldError>,
+    pub findings: Vec<Finding>,
 }
 
 /// A change of a demonstration; absent fields stay.
@@ -110,7 +131,7 @@ pub struct SamplesQuery {
     pub from_s: Option<f64>,
     /// Up to this time, seconds after the first sample of the demonstration.
     pub to_s: Option<f64>,
-    /// At most about so many points a feature (2 to 20000; 1000 when absent), by minimum and maximum of each bin.
+    /// At most so many points a feature (4 to 20000; 1000 when absent), by minimum and maximum of each bin.
     pub max_points: Option<u32>,
 }
 
@@ -143,91 +164,18 @@ pub struct Series {
 pub struct Export {
     /// Media type.
     pub content_type: &'static str,
-    /// Suggested name.
+    /// Suggested name, safe for every file system.
     pub file_name: String,
     /// Content.
     pub bytes: Vec<u8>,
 }
 
-impl App {
-    /// Reads and keeps an upload.
-    ///
-    /// # Errors
-    /// `Invalid` with one detail a finding that makes it unusable; `TooLarge`.
-    pub async fn upload_demonstration(&self, upload: UploadDemonstration) -> Result<DemonstrationView, AppError> {
-        let _ = upload;
-        Err(self.unfinished())
-    }
-
-    /// Newest first.
-    ///
-    /// # Errors
-    /// `Malformed` page.
-    pub async fn list_demonstrations(&self, page: PageQuery) -> Result<Page<DemonstrationView>, AppError> {
-        let _ = page;
-        Err(self.unfinished())
-    }
-
-    /// One demonstration.
-    ///
-    /// # Errors
-    /// `NotFound`.
-    pub async fn get_demonstration(&self, id: &DemonstrationId) -> Result<DemonstrationView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
-    }
-
-    /// Renames or excludes.
-    ///
-    /// # Errors
-    /// `NotFound`; `Precondition` when `if_match` is not the present revision.
-    pub async fn patch_demonstration(
-        &self,
-        id: &DemonstrationId,
-        patch: PatchDemonstration,
-        if_match: Option<u64>,
-    ) -> Result<DemonstrationView, AppError> {
-        let _ = (id, patch, if_match);
-        Err(self.unfinished())
-    }
-
-    /// Deletes it; actions made from it keep their goals.
-    ///
-    /// # Errors
-    /// `NotFound`; `Precondition`.
-    pub async fn delete_demonstration(&self, id: &DemonstrationId, if_match: Option<u64>) -> Result<(), AppError> {
-        let _ = (id, if_match);
-        Err(self.unfinished())
-    }
-
-    /// Samples, decimated so that no minimum and no maximum is lost.
-    ///
-    /// # Errors
-    /// `NotFound`; `Malformed` query.
-    pub async fn demonstration_samples(
-        &self,
-        id: &DemonstrationId,
-        query: SamplesQuery,
-    ) -> Result<SamplesView, AppError> {
-        let _ = (id, query);
-        Err(self.unfinished())
-    }
-
-    /// What the reader found at upload.
-    ///
-    /// # Errors
-    /// `NotFound`.
-    pub async fn demonstration_report(&self, id: &DemonstrationId) -> Result<DemonstrationReport, AppError> {
-        let _ = id;
-        Err(self.unfinished())
-    }
-
-    /// The samples as `csv` (one stream only) or `json`.
-    ///
-    /// # Errors
-    /// `NotFound`; `Malformed` format.
-    pub async fn export_demonstration(&self, id: &DemonstrationId, format: &str) -> Result<Export, AppError> {
-        let _ = (id, format);
-        Err(self.unfinished())
+impl Export {
+    /// A file named after `name`, of which only letters, digits, `-` and `_` are kept.
+    #[must_use]
+    pub fn new(content_type: &'static str, name: &str, extension: &str, bytes: Vec<u8>) -> Self {
+        let safe: String =
+            name.chars().map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '_' }).take(80).collect();
+        Self { content_type, file_name: format!("{safe}.{extension}"), bytes }
     }
 }

@@ -1,0 +1,111 @@
+//! Following a job: what is stored first, then what comes.
+//!
+//! A follower reads the store in pages and is woken by hints; it holds at most one page, however slow its reader is.
+
+use super::{EventData, JobEvent, JobView, MAX_EVENTS};
+use crate::app::id::JobId;
+use crate::app::ports::Wake;
+use crate::app::{App, AppError};
+use futures_util::StreamExt as _;
+use futures_util::stream::{self, BoxStream};
+use std::collections::VecDeque;
+use std::time::Duration;
+use tokio::sync::broadcast::{Receiver, error::RecvError};
+use tokio::time::{Instant, timeout_at};
+
+/// Longest that a lost hint can delay a follower.
+const LOOK_AGAIN: Duration = Duration::from_secs(1);
+/// Longest bounded wait.
+const MAX_WAIT: Duration = Duration::from_secs(60);
+
+struct Follower {
+    app: App,
+    id: JobId,
+    after_seq: u64,
+    wakes: Receiver<Wake>,
+    page: VecDeque<JobEvent>,
+    end: bool,
+}
+
+impl Follower {
+    async fn next(&mut self) -> Result<Option<JobEvent>, AppError> {
+        loop {
+            if let Some(event) = self.page.pop_front() {
+                self.after_seq = event.seq;
+                return Ok(Some(event));
+            }
+            if self.end {
+                return Ok(None);
+            }
+            let page = self.app.job_events(&self.id, self.after_seq, MAX_EVENTS).await?;
+            if page.resync {
+                self.after_seq = page.last_seq;
+                self.end = self.app.get_job(&self.id).await?.state.is_final();
+                let at = self.app.now();
+                return Ok(Some(JobEvent { seq: page.last_seq, job: self.id.clone(), at, data: EventData::Resync }));
+            }
+            self.end = page.end;
+            self.page = page.events.into();
+            if self.page.is_empty() && !self.end {
+                woken(&mut self.wakes, &self.id, Instant::now() + LOOK_AGAIN).await;
+            }
+        }
+    }
+}
+
+/// Returns when `id` may have changed, at the latest at `deadline`.
+async fn woken(wakes: &mut Receiver<Wake>, id: &JobId, deadline: Instant) {
+    loop {
+        match timeout_at(deadline, wakes.recv()).await {
+            Ok(Ok(Wake::Job(job))) if job == *id => return,
+            Ok(Ok(_)) => {}
+            Err(_) | Ok(Err(RecvError::Lagged(_))) => return,
+            // Nobody publishes any more: only the clock is left.
+            Ok(Err(RecvError::Closed)) => return tokio::time::sleep_until(deadline).await,
+        }
+    }
+}
+
+impl App {
+    /// Every event after `after_seq`, first those stored, then as they come; ends after the event of a final state.
+    ///
+    /// A position that is not known gives one `resync` event; the stream goes on after the job's last event.
+    ///
+    /// # Errors
+    /// `NotFound`. The stream itself ends with an error when the store fails.
+    pub async fn watch_job(
+        &self,
+        id: &JobId,
+        after_seq: u64,
+    ) -> Result<BoxStream<'static, Result<JobEvent, AppError>>, AppError> {
+        // Before the first look, so that nothing between the two is missed.
+        let wakes = self.ports.events.subscribe();
+        self.get_job(id).await?;
+        let follower =
+            Follower { app: self.clone(), id: id.clone(), after_seq, wakes, page: VecDeque::new(), end: false };
+        let events = stream::unfold(Some(follower), |state| async {
+            let mut follower = state?;
+            match follower.next().await {
+                Ok(event) => event.map(|event| (Ok(event), Some(follower))),
+                Err(error) => Some((Err(error), None)),
+            }
+        });
+        Ok(events.boxed())
+    }
+
+    /// The job as soon as it has an event after `after_seq` or is final, at the latest after `timeout` (at most 60 s).
+    ///
+    /// # Errors
+    /// `NotFound`.
+    pub async fn wait_job(&self, id: &JobId, after_seq: u64, timeout: Duration) -> Result<JobView, AppError> {
+        let mut wakes = self.ports.events.subscribe();
+        let deadline = Instant::now() + timeout.min(MAX_WAIT);
+        loop {
+            let job = self.get_job(id).await?;
+            if job.last_seq > after_seq || job.state.is_final() || Instant::now() >= deadline {
+                return Ok(job);
+            }
+            woken(&mut wakes, id, deadline.min(Instant::now() + LOOK_AGAIN)).await;
+        }
+    }
+}
