@@ -129,7 +129,8 @@ CREATE TABLE runs (
 
 CREATE TABLE run_goals (
     run_id TEXT PRIMARY KEY REFERENCES runs (id) ON DELETE CASCADE,
-    goals TEXT NOT NULL
+    goals TEXT NOT NULL,
+    convergence TEXT NOT NULL
 ) STRICT;
 
 CREATE TABLE trajectories (

@@ -4,6 +4,7 @@ use crate::app::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::trajectories::TrajectoryView;
 use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, Timestamp, out_of_bounds};
 use crate::framework::Feature;
+use crate::framework::optimizer::StopReason;
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -57,7 +58,7 @@ pub struct RunGoal {
     /// Discrepancy of the observation up to this goal, features' unit.
     pub discrepancy: f64,
     /// Why the goal ended.
-    pub stop_reason: String,
+    pub stop_reason: StopReason,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// What was observed there.
@@ -133,7 +134,7 @@ impl App {
         Ok(self.ports.store.run_goals(id).await?)
     }
 
-    /// Its convergence: where each goal ended, at most `max_points` (2 to 10000) evenly chosen points with the first
+    /// Its convergence: each improvement and where each goal ended, at most `max_points` (2 to 10000) evenly chosen points with the first
     /// and the last.
     ///
     /// # Errors
@@ -143,16 +144,7 @@ impl App {
         if !(2..=10_000).contains(&max_points) {
             return Err(out_of_bounds("max_points", max_points, "2 to 10000"));
         }
-        let goals = self.run_goals(id).await?;
-        let mut evaluations = 0;
-        let all: Vec<ConvergencePoint> = goals
-            .goals
-            .iter()
-            .map(|goal| {
-                evaluations += goal.evaluations;
-                ConvergencePoint { goal_index: goal.index, evaluations, discrepancy: goal.discrepancy }
-            })
-            .collect();
+        let all = self.ports.store.run_convergence(id).await?;
         Ok(Convergence { run: id.clone(), points: thin(&all, max_points as usize) })
     }
 

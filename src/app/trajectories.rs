@@ -50,8 +50,7 @@ impl App {
     /// # Errors
     /// `NotFound`.
     pub async fn get_trajectory(&self, id: &TrajectoryId) -> Result<TrajectoryView, AppError> {
-        let _ = id;
-        Err(self.unfinished())
+        Ok(self.ports.store.trajectory(id).await?)
     }
 
     /// The trajectory as `csv`, `json` or `ros2`.

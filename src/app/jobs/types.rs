@@ -1,9 +1,12 @@
 //! Requests for jobs, and what is shown of them.
 
 use crate::app::id::{ActionId, DemonstrationId, JobId, RobotId, RunId, TrajectoryId, WorldId};
+use crate::app::runs::RunGoal;
 use crate::app::{FieldError, Timestamp};
 use crate::framework::execution::ExecutionSpec;
+use crate::framework::generalization::Weighting;
 use crate::framework::job::State;
+use crate::framework::optimizer::StopReason;
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -49,19 +52,15 @@ pub struct GeneralizationRequest {
     pub demonstrations: Vec<DemonstrationId>,
     /// Shortest time between goals, seconds (> 0).
     pub t_min_s: f64,
-    /// `per_demonstration` (default) or `per_sample`.
-    #[serde(default = "default_weighting")]
-    pub weighting: String,
+    /// How samples are weighted.
+    #[serde(default)]
+    pub weighting: Weighting,
     /// Features by name, in the order they shall have; all when absent.
     #[serde(default)]
     pub features: Option<Vec<String>>,
     /// Default metric for recognition.
     #[serde(default)]
     pub metric: Metric,
-}
-
-fn default_weighting() -> String {
-    "per_demonstration".to_owned()
 }
 
 /// Which action is executed on which robot in which world, and how.
@@ -82,7 +81,7 @@ pub struct ExecutionRequest {
     /// Seed of the first repetition, below 2^53; drawn and recorded when absent. Repetition r uses seed + r.
     #[serde(default)]
     pub seed: Option<u64>,
-    /// Number of runs, 1 to 10000.
+    /// Number of runs, 1 to 1000.
     #[serde(default = "one")]
     pub repetitions: u32,
     /// Slows the job down to about so many evaluations a second, to be watched.
@@ -144,11 +143,13 @@ pub struct JobProgress {
     pub goals: u32,
     /// Evaluations of the present repetition.
     pub evaluations: u64,
+    /// Evaluations of the present goal.
+    pub goal_evaluations: u64,
     /// Evaluations of all repetitions.
     pub total_evaluations: u64,
     /// Best discrepancy of the present goal, features' unit.
     pub discrepancy: Option<f64>,
-    /// Finished goals of the present repetition.
+    /// Finished goals of the present repetition; left out of events, which tell each goal once.
     pub finished_goals: Vec<GoalProgress>,
 }
 
@@ -164,11 +165,27 @@ pub struct GoalProgress {
     /// Discrepancy of the observation up to this goal, features' unit.
     pub discrepancy: f64,
     /// Why the goal ended.
-    pub stop_reason: String,
+    pub stop_reason: StopReason,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// What was observed there.
     pub observation: Vec<f64>,
+}
+
+impl GoalProgress {
+    /// The same goal, as the run shows it.
+    #[must_use]
+    pub fn of_run(repetition: u32, goal: &RunGoal) -> Self {
+        Self {
+            repetition,
+            index: goal.index,
+            evaluations: goal.evaluations,
+            discrepancy: goal.discrepancy,
+            stop_reason: goal.stop_reason,
+            joints: goal.joints.clone(),
+            observation: goal.observation.clone(),
+        }
+    }
 }
 
 /// What a job made.

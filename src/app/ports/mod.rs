@@ -7,7 +7,7 @@ mod store;
 
 pub use clock::{Clock, SystemClock};
 pub use events::{Events, LocalEvents, Wake};
-pub use ids::{Ids, SystemIds};
+pub use ids::{Ids, SEED_BOUND, SystemIds};
 pub use store::{
     Advance, Claim, Claimed, IdempotencyKey, NewDemonstration, NewJob, NewRobot, NewRun, Store, StoreError, Submitted,
     Transition, Usage,

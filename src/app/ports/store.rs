@@ -12,7 +12,7 @@ use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDe
 use crate::app::id::{ActionId, DemonstrationId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::jobs::{EventData, EventPage, JobFailure, JobFilter, JobProgress, JobView, Work};
 use crate::app::robots::RobotView;
-use crate::app::runs::{RunFilter, RunGoals, RunView};
+use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
 use crate::app::trajectories::TrajectoryView;
 use crate::app::worlds::WorldView;
 use crate::app::{AppError, ErrorKind, Keyset, Timestamp};
@@ -163,7 +163,7 @@ pub enum Submitted {
     Existing(JobView),
 }
 
-/// The right to write for a job: void as soon as another claim was given or the lease ran out.
+/// The right to write for a job: void as soon as the job was taken back, which may happen when the lease ran out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
     /// The job.
@@ -211,6 +211,8 @@ pub struct NewRun {
     pub view: RunView,
     /// Its goals.
     pub goals: RunGoals,
+    /// Its convergence.
+    pub convergence: Vec<ConvergencePoint>,
     /// Its trajectory.
     pub trajectory: Option<TrajectoryView>,
 }
@@ -324,6 +326,8 @@ pub trait Store: Send + Sync {
     async fn run(&self, id: &RunId) -> Result<RunView, StoreError>;
     /// Its goals.
     async fn run_goals(&self, id: &RunId) -> Result<RunGoals, StoreError>;
+    /// Its convergence.
+    async fn run_convergence(&self, id: &RunId) -> Result<Vec<ConvergencePoint>, StoreError>;
     /// Runs.
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError>;
     /// One trajectory.

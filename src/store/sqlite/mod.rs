@@ -21,7 +21,7 @@ use crate::app::ports::{
     Transition,
 };
 use crate::app::robots::RobotView;
-use crate::app::runs::{RunFilter, RunGoals, RunView};
+use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
 use crate::app::trajectories::TrajectoryView;
 use crate::app::worlds::WorldView;
 use crate::app::{Keyset, Timestamp};
@@ -212,6 +212,9 @@ impl Store for SqliteStore {
     }
     async fn run_goals(&self, id: &RunId) -> Result<RunGoals, StoreError> {
         results::run_goals(self, id.as_str()).await
+    }
+    async fn run_convergence(&self, id: &RunId) -> Result<Vec<ConvergencePoint>, StoreError> {
+        results::run_convergence(self, id.as_str()).await
     }
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError> {
         results::runs(self, filter, keyset).await

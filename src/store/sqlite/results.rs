@@ -6,7 +6,7 @@ use super::{SqliteStore, engine_error};
 use crate::app::Keyset;
 use crate::app::actions::{ActionGoals, ActionView};
 use crate::app::ports::{NewRun, StoreError};
-use crate::app::runs::{RunFilter, RunGoals, RunView};
+use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
 use crate::app::trajectories::TrajectoryView;
 use sqlx::sqlite::SqliteConnection;
 
@@ -19,12 +19,13 @@ statements! {
         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)";
     RUN = "SELECT view FROM runs WHERE id = ?1";
     RUN_GOALS = "SELECT goals FROM run_goals WHERE run_id = ?1";
+    RUN_CONVERGENCE = "SELECT convergence FROM run_goals WHERE run_id = ?1";
     RUNS = "SELECT view FROM runs WHERE (?1 IS NULL OR id < ?1) AND (?3 IS NULL OR job_id = ?3)
         ORDER BY id DESC LIMIT ?2";
     INSERT_RUN = "INSERT INTO runs
         (id, job_id, repetition, seed, evaluations, discrepancy, digest, created_at, view)
         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)";
-    INSERT_RUN_GOALS = "INSERT INTO run_goals (run_id, goals) VALUES (?1, ?2)";
+    INSERT_RUN_GOALS = "INSERT INTO run_goals (run_id, goals, convergence) VALUES (?1, ?2, ?3)";
     TRAJECTORY = "SELECT view FROM trajectories WHERE id = ?1";
     INSERT_TRAJECTORY = "INSERT INTO trajectories (id, run_id, created_at, view) VALUES (?1, ?2, ?3, ?4)";
 }
@@ -70,6 +71,10 @@ pub(super) async fn run_goals(store: &SqliteStore, id: &str) -> Result<RunGoals,
     one(&store.readers, RUN_GOALS, "run", id).await
 }
 
+pub(super) async fn run_convergence(store: &SqliteStore, id: &str) -> Result<Vec<ConvergencePoint>, StoreError> {
+    one(&store.readers, RUN_CONVERGENCE, "run", id).await
+}
+
 pub(super) async fn runs(store: &SqliteStore, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError> {
     let rows: Vec<String> = sqlx::query_scalar(RUNS)
         .bind(keyset.before_id.as_deref())
@@ -99,6 +104,7 @@ pub(super) async fn insert_run(connection: &mut SqliteConnection, new: &NewRun) 
     sqlx::query(INSERT_RUN_GOALS)
         .bind(view.id.as_str())
         .bind(json(&new.goals)?)
+        .bind(json(&new.convergence)?)
         .execute(&mut *connection)
         .await
         .map_err(engine_error)?;

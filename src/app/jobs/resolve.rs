@@ -1,0 +1,230 @@
+//! From a request to all a job needs: references are looked up, what was left open is filled in, and the whole is
+//! checked as the worker will check it. The same code answers a dry run.
+
+use super::{
+    CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work,
+};
+use crate::app::ports::{SEED_BOUND, StoreError, Usage};
+use crate::app::{App, AppError, ErrorKind, FieldError, chain_text, check_name, compute};
+use crate::framework::execution::{Iet, Problem, simulate};
+use crate::framework::generalization::Goals;
+use crate::framework::world;
+use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
+
+/// Most repetitions of one job.
+const MAX_REPETITIONS: u32 = 1000;
+/// Most demonstrations of one action.
+const MAX_DEMONSTRATIONS: usize = 1000;
+/// Evaluations of a dry run's trial: enough for most problems to end.
+const TRIAL_EVALUATIONS: u64 = 50_000;
+/// .. but no longer than this.
+const TRIAL_TIME: Duration = Duration::from_millis(500);
+/// A trial on a robot, as far as an estimate knows.
+const ROBOT_TRIAL_S: f64 = 15.0;
+
+/// A job that can be submitted.
+pub(super) struct Resolved {
+    pub name: String,
+    pub request: CreateJob,
+    pub work: Work,
+    pub uses: Usage,
+    pub progress: JobProgress,
+}
+
+impl Resolved {
+    fn new(name: String, request: CreateJob, work: Work) -> Self {
+        let (uses, progress) = match &work {
+            Work::Generalization(_) => (Usage::default(), JobProgress { repetitions: 1, ..JobProgress::default() }),
+            Work::Execution(work) => {
+                let uses = Usage {
+                    action: Some(work.action.clone()),
+                    robot: Some(work.robot.clone()),
+                    world: Some(work.world.clone()),
+                };
+                let goals = u32::try_from(work.problem.goals.len()).unwrap_or(u32::MAX);
+                (uses, JobProgress { repetitions: work.repetitions, goals, ..JobProgress::default() })
+            }
+        };
+        Self { name, request, work, uses, progress }
+    }
+
+    /// What was resolved before.
+    pub(super) fn again(name: String, request: CreateJob, work: Work) -> Self {
+        Self::new(name, request, work)
+    }
+}
+
+impl App {
+    /// Checks a job as [`App::create_job`] would, creates nothing and estimates its cost.
+    ///
+    /// # Errors
+    /// Only when the service is at fault: what is wrong with the request is in the answer.
+    pub async fn validate_job(&self, request: CreateJob) -> Result<Validation, AppError> {
+        let estimate = match self.resolve(request).await {
+            Ok(resolved) => compute(move || estimate(&resolved.work)).await?,
+            Err(error) => Err(error),
+        };
+        match estimate {
+            Ok(estimate) => Ok(Validation { valid: true, errors: Vec::new(), estimate: Some(estimate) }),
+            Err(error) if error.kind == ErrorKind::Invalid => {
+                Ok(Validation { valid: false, errors: error.details, estimate: None })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    pub(super) async fn resolve(&self, request: CreateJob) -> Result<Resolved, AppError> {
+        match request {
+            CreateJob::Generalization(request) => self.resolve_generalization(request).await,
+            CreateJob::Execution(request) => self.resolve_execution(request).await,
+        }
+    }
+
+    async fn resolve_generalization(&self, request: GeneralizationRequest) -> Result<Resolved, AppError> {
+        check_name("/name", &request.name)?;
+        let mut errors = Vec::new();
+        if !(request.t_min_s.is_finite() && request.t_min_s > 0.0) {
+            let detail = format!("t_min_s is {}: give a time above 0", request.t_min_s);
+            errors.push(FieldError::new("/t_min_s", "out_of_range", detail));
+        }
+        if request.demonstrations.is_empty() || request.demonstrations.len() > MAX_DEMONSTRATIONS {
+            let count = request.demonstrations.len();
+            let detail = format!("{count} demonstrations are named: give 1 to {MAX_DEMONSTRATIONS}");
+            errors.push(FieldError::new("/demonstrations", "out_of_range", detail));
+        }
+        let mut seen = BTreeSet::new();
+        for (index, id) in request.demonstrations.iter().enumerate().take(MAX_DEMONSTRATIONS) {
+            let pointer = format!("/demonstrations/{index}");
+            if !seen.insert(id) {
+                errors.push(FieldError::new(pointer, "duplicate", format!("{id} is named twice: name it once")));
+                continue;
+            }
+            match self.ports.store.demonstration(id).await {
+                Ok(view) => {
+                    if let Some(reason) = view.excluded {
+                        let detail = format!("{id} is excluded ({reason}): take it in again or leave it out");
+                        errors.push(FieldError::new(pointer, "excluded", detail));
+                    }
+                }
+                Err(error) => errors.push(missing(pointer, error)?),
+            }
+        }
+        if !errors.is_empty() {
+            return Err(AppError::invalid(errors));
+        }
+        let work = Work::Generalization(request.clone());
+        Ok(Resolved::new(request.name.clone(), CreateJob::Generalization(request), work))
+    }
+
+    async fn resolve_execution(&self, mut request: ExecutionRequest) -> Result<Resolved, AppError> {
+        let mut errors = bounds(&request);
+        let store = &self.ports.store;
+        let action = look_up(&mut errors, "/action", store.action(&request.action).await)?;
+        let goals = look_up(&mut Vec::new(), "/action", store.action_goals(&request.action).await)?;
+        let robot = look_up(&mut errors, "/robot", store.robot(&request.robot).await)?;
+        let urdf = look_up(&mut Vec::new(), "/robot", store.robot_urdf(&request.robot).await)?;
+        let world = look_up(&mut errors, "/world", store.world(&request.world).await)?;
+        let (Some(action), Some(goals), Some(robot), Some(urdf), Some(world), true) =
+            (action, goals, robot, urdf, world, errors.is_empty())
+        else {
+            return Err(AppError::invalid(errors));
+        };
+        let goals = Goals::new(goals.features, &goals.goals).map_err(AppError::internal)?;
+        let problem =
+            Problem { goals, urdf, robot: robot.spec, world: world.spec, execution: request.execution.clone() };
+        let seed = request.seed.unwrap_or_else(|| self.ports.ids.seed());
+        let problem = compute(move || match Iet::new(&problem, seed) {
+            Ok(_) => Ok(problem),
+            Err(error) => Err(AppError::field("/execution", "invalid_problem", chain_text(&error))),
+        })
+        .await??;
+        let name = request.name.clone().unwrap_or_else(|| format!("{} on {}", action.name, robot.name));
+        request.name = Some(name.clone());
+        request.seed = Some(seed);
+        let work = ExecutionWork {
+            action: request.action.clone(),
+            robot: request.robot.clone(),
+            world: request.world.clone(),
+            problem,
+            seed,
+            repetitions: request.repetitions,
+            max_evaluations_per_s: request.max_evaluations_per_s,
+        };
+        Ok(Resolved::new(name, CreateJob::Execution(request), Work::Execution(Box::new(work))))
+    }
+}
+
+/// What is wrong with the numbers and names of a request, before anything is looked up.
+fn bounds(request: &ExecutionRequest) -> Vec<FieldError> {
+    let mut errors = Vec::new();
+    let mut wrong = |pointer: &str, detail: String| errors.push(FieldError::new(pointer, "out_of_range", detail));
+    if !(1..=MAX_REPETITIONS).contains(&request.repetitions) {
+        wrong("/repetitions", format!("repetitions is {}: give 1 to {MAX_REPETITIONS}", request.repetitions));
+    }
+    let last = SEED_BOUND - u64::from(MAX_REPETITIONS);
+    if let Some(seed) = request.seed.filter(|seed| *seed >= last) {
+        wrong("/seed", format!("seed is {seed}: give one below {last}"));
+    }
+    if let Some(rate) = request.max_evaluations_per_s.filter(|rate| !(rate.is_finite() && *rate >= 0.1)) {
+        wrong("/max_evaluations_per_s", format!("max_evaluations_per_s is {rate}: give 0.1 or more"));
+    }
+    if let Some(error) = request.name.as_deref().and_then(|name| check_name("/name", name).err()) {
+        errors.extend(error.details);
+    }
+    errors
+}
+
+fn look_up<T>(errors: &mut Vec<FieldError>, pointer: &str, found: Result<T, StoreError>) -> Result<Option<T>, AppError> {
+    match found {
+        Ok(value) => Ok(Some(value)),
+        Err(error) => {
+            errors.push(missing(pointer, error)?);
+            Ok(None)
+        }
+    }
+}
+
+/// A reference to nothing is a wrong place of the request; every other error is one.
+fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, AppError> {
+    match error {
+        StoreError::NotFound { .. } => Ok(FieldError::new(pointer, "not_found", error.to_string())),
+        error => Err(error.into()),
+    }
+}
+
+/// Runs the first repetition for a short while and scales up what it took.
+fn estimate(work: &Work) -> Result<CostEstimate, AppError> {
+    let Work::Execution(work) = work else {
+        let basis = "a generalization evaluates nothing".to_owned();
+        return Ok(CostEstimate { evaluations: 0, simulated_s: 0.1, robot_s: 0.0, basis });
+    };
+    let wrong = |error: &(dyn std::error::Error + 'static)| {
+        AppError::field("/execution", "invalid_problem", chain_text(error))
+    };
+    let mut iet = Iet::new(&work.problem, work.seed).map_err(|error| wrong(&error))?;
+    let mut place = world::build(&work.problem.world, iet.chain()).map_err(|error| wrong(&error))?;
+    let started = Instant::now();
+    let mut progress = iet.progress();
+    while !progress.finished && progress.evaluations < TRIAL_EVALUATIONS && started.elapsed() < TRIAL_TIME {
+        progress = simulate(&mut iet, place.as_mut(), 1000).map_err(|error| wrong(&error))?;
+    }
+    let per_evaluation_s = started.elapsed().as_secs_f64() / progress.evaluations.max(1) as f64;
+    let goals = progress.goals as f64;
+    let (evaluations_of_one, basis) = if progress.finished {
+        (progress.evaluations as f64, "the first repetition, simulated to its end".to_owned())
+    } else {
+        let done = progress.goal_index as f64 + 0.5;
+        let basis = format!("{} of {goals} goals of the first repetition, simulated", progress.goal_index);
+        (progress.evaluations as f64 * goals / done, basis)
+    };
+    let evaluations = evaluations_of_one * f64::from(work.repetitions);
+    let paced_s = work.max_evaluations_per_s.map_or(0.0, |rate| evaluations / rate);
+    Ok(CostEstimate {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of evaluations, >= 0")]
+        evaluations: evaluations as u64,
+        simulated_s: (evaluations * per_evaluation_s).max(paced_s),
+        robot_s: evaluations * ROBOT_TRIAL_S,
+        basis,
+    })
+}

@@ -1,0 +1,70 @@
+//! What an execution job needs to go on: which repetition, and where in it.
+
+use crate::framework::execution::IetState;
+use serde::{Deserialize, Serialize};
+
+/// Counted up when the meaning of a checkpoint changes.
+const VERSION: u32 = 1;
+
+/// A saved execution job.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Checkpoint {
+    version: u32,
+    /// Who wrote it: another build may compute other bits.
+    build: String,
+    /// The present repetition; those before it are stored as runs.
+    pub(super) repetition: u32,
+    /// Evaluations of the repetitions before it.
+    pub(super) evaluations_before: u64,
+    /// Where the present repetition stands; absent at its beginning.
+    pub(super) iet: Option<IetState>,
+}
+
+/// Version of the program and its target: the same ones compute the same bits.
+fn build() -> String {
+    format!("{} {}", env!("CARGO_PKG_VERSION"), std::env::consts::ARCH)
+}
+
+impl Checkpoint {
+    /// A job at the beginning of `repetition`.
+    pub(super) fn at_start_of(repetition: u32, evaluations_before: u64) -> Self {
+        Self { version: VERSION, build: build(), repetition, evaluations_before, iet: None }
+    }
+
+    /// The same job, inside the repetition.
+    pub(super) fn within(&self, iet: IetState) -> Self {
+        Self { iet: Some(iet), ..self.clone() }
+    }
+
+    /// As it is stored.
+    ///
+    /// # Errors
+    /// Never for a state the machine made; JSON has no number for NaN.
+    pub(super) fn encode(&self) -> Result<Vec<u8>, serde_json::Error> {
+        serde_json::to_vec(self)
+    }
+
+    /// What `bytes` hold, if this build wrote them for that repetition. Otherwise the repetition starts again from its
+    /// seed: slower, and with the bits of an uninterrupted run of this build.
+    pub(super) fn decode(bytes: &[u8], repetition: u32) -> Option<Self> {
+        let found: Self = serde_json::from_slice(bytes).ok()?;
+        (found.version == VERSION && found.build == build() && found.repetition == repetition).then_some(found)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_checkpoint_of_this_build_for_this_repetition_is_used() {
+        let saved = Checkpoint::at_start_of(3, 700);
+        let bytes = saved.encode().unwrap();
+        assert_eq!(Checkpoint::decode(&bytes, 3), Some(saved.clone()));
+        assert_eq!(Checkpoint::decode(&bytes, 2), None);
+        assert_eq!(Checkpoint::decode(&bytes[1..], 3), None);
+        let other = Checkpoint { build: "0.0.1 other".to_owned(), ..saved };
+        assert_eq!(Checkpoint::decode(&other.encode().unwrap(), 3), None);
+    }
+}
