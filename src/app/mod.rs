@@ -84,7 +84,8 @@ fn check_name(pointer: &str, name: &str) -> Result<(), AppError> {
     let length = name.chars().count();
     // Beside control characters those that turn the direction of text around or are not seen.
     let hidden = |c: char| {
-        c.is_control() || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+        c.is_control()
+            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
     };
     if name.trim().is_empty() || length > 128 || name.chars().any(hidden) {
         let detail = format!("a name has 1 to 128 visible characters, this one has {length}");

@@ -1,7 +1,7 @@
 //! Recognition: which action an observed stream shows, or none of them.
 
-use crate::app::id::{ActionId, DemonstrationId};
 use crate::app::actions::ActionView;
+use crate::app::id::{ActionId, DemonstrationId};
 use crate::app::{App, AppError, ErrorKind, MAX_PAGE_SIZE, PageQuery, compute};
 use crate::framework::Feature;
 use crate::framework::generalization::Goals;

@@ -3,9 +3,7 @@
 use crate::app::id::RobotId;
 use crate::app::ports::NewRobot;
 use crate::app::{App, AppError, Keyset, Page, PageQuery, Timestamp, chain_text, check_name, compute};
-use crate::framework::robot::{
-    Chain, ChainSummary, RobotModel, RobotSpec, RobotSummary, summarize, summarize_chain,
-};
+use crate::framework::robot::{Chain, ChainSummary, RobotModel, RobotSpec, RobotSummary, summarize, summarize_chain};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 use utoipa::ToSchema;
@@ -45,8 +43,8 @@ pub struct RobotView {
 }
 
 fn read(urdf: &str, spec: &RobotSpec) -> Result<(RobotSummary, ChainSummary), AppError> {
-    let model = RobotModel::from_urdf(urdf)
-        .map_err(|error| AppError::field("/urdf", "invalid_urdf", chain_text(&error)))?;
+    let model =
+        RobotModel::from_urdf(urdf).map_err(|error| AppError::field("/urdf", "invalid_urdf", chain_text(&error)))?;
     let chain =
         Chain::new(&model, spec).map_err(|error| AppError::field("/spec", "invalid_chain", chain_text(&error)))?;
     Ok((summarize(&model), summarize_chain(&chain)))

@@ -2,7 +2,7 @@
 
 use crate::app::demonstrations::Export;
 use crate::app::id::{JobId, RobotId, RunId, TrajectoryId};
-use crate::app::{App, AppError, Timestamp};
+use crate::app::{App, AppError, Timestamp, unknown_format};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -58,7 +58,13 @@ impl App {
     /// # Errors
     /// `NotFound`; `Malformed` format.
     pub async fn export_trajectory(&self, id: &TrajectoryId, format: &str) -> Result<Export, AppError> {
-        let _ = (id, format);
-        Err(self.unfinished())
+        let trajectory = self.get_trajectory(id).await?;
+        match format {
+            "json" => {
+                let bytes = serde_json::to_vec(&trajectory).map_err(AppError::internal)?;
+                Ok(Export::new("application/json", id.as_str(), "json", bytes))
+            }
+            other => Err(unknown_format(other, "csv, json or ros2")),
+        }
     }
 }

@@ -108,6 +108,7 @@ fn name(data: &EventData) -> &'static str {
         EventData::Progress { .. } => "progress",
         EventData::Goal { .. } => "goal",
         EventData::Run { .. } => "run",
+        EventData::Resync => "resync",
     }
 }
 

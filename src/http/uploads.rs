@@ -8,6 +8,8 @@ use super::extract::{Query, unsupported};
 use super::problem::Problem;
 use crate::app::demonstrations::{DemonstrationView, UploadDemonstration, UploadFile, UploadOptions};
 use crate::app::{App, AppError, ErrorKind, FieldError};
+use crate::framework::Feature;
+use crate::framework::demonstration::ClockPolicy;
 use axum::body::Body;
 use axum::extract::multipart::{Field, Multipart};
 use axum::extract::{FromRequest as _, Request, State};
@@ -16,6 +18,7 @@ use axum::http::header::{CONTENT_ENCODING, CONTENT_LENGTH, CONTENT_TYPE};
 use axum::response::Response;
 use futures_util::StreamExt as _;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use std::sync::Arc;
 use utoipa::{IntoParams, ToSchema};
 
@@ -33,9 +36,9 @@ pub struct UploadParameters {
     name: Option<String>,
     /// File name of a raw body; it names the stream.
     file_name: Option<String>,
-    /// `csv`, `yarp`, `reduced` or `json`; recognized from the content when absent.
+    /// `csv`, `yarp` or `json`; found from the content when absent.
     format: Option<String>,
-    /// What to do with streams whose clocks differ: `report` or `align_start`.
+    /// What to do about clocks that disagree: `as_recorded` or `align_by_start`.
     clock_policy: Option<String>,
     /// Name of the time column; the first column when absent.
     time_column: Option<String>,
@@ -181,14 +184,25 @@ fn options(parameters: &UploadParameters) -> Result<UploadOptions, AppError> {
             .ok_or_else(|| field_error("units", "invalid_value", &format!("{pair:?} is not FEATURE=UNIT")))?;
         Ok::<_, AppError>((name.trim().to_owned(), unit.trim().to_owned()))
     };
+    let features = parameters.features.as_deref().map(list).unwrap_or_default();
     let units = parameters.units.as_deref().filter(|text| !text.is_empty()).map(list).unwrap_or_default();
     Ok(UploadOptions {
-        format: parameters.format.clone(),
-        clock_policy: parameters.clock_policy.clone(),
+        format: parameters.format.as_deref().map(|text| choice("format", text)).transpose()?,
+        clock_policy: parameters
+            .clock_policy
+            .as_deref()
+            .map_or(Ok(ClockPolicy::default()), |text| choice("clock_policy", text))?,
         time_column: parameters.time_column.clone(),
-        features: parameters.features.as_deref().map(list),
+        features: features.into_iter().map(|name| Feature::new(name, "")).collect(),
         units: units.into_iter().map(unit).collect::<Result<_, _>>()?,
+        ..UploadOptions::default()
     })
+}
+
+/// One of the names that the type has in JSON.
+fn choice<T: DeserializeOwned>(name: &str, text: &str) -> Result<T, AppError> {
+    serde_json::from_value(serde_json::Value::from(text))
+        .map_err(|error| field_error(name, "invalid_value", &error.to_string()))
 }
 
 fn field_error(name: &str, code: &str, detail: &str) -> AppError {

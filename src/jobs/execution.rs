@@ -98,7 +98,10 @@ impl<'a> Attempt<'a> {
                 let (advanced, progress) = self.slice(simulation).await?;
                 simulation = advanced;
                 let ended = progress.results.get(told..).unwrap_or_default();
-                self.events.extend(ended.iter().map(|goal| EventData::Goal { goal: self.goal(goal) }));
+                for goal in ended {
+                    let goal = self.goal(goal);
+                    self.events.push(EventData::Goal { goal });
+                }
                 told = progress.results.len();
                 if progress.finished {
                     break;
@@ -192,11 +195,7 @@ impl<'a> Attempt<'a> {
     }
 
     fn take_step(&mut self) -> Advance {
-        Advance {
-            runs: std::mem::take(&mut self.runs),
-            events: std::mem::take(&mut self.events),
-            ..Advance::default()
-        }
+        Advance { runs: std::mem::take(&mut self.runs), events: std::mem::take(&mut self.events), ..Advance::default() }
     }
 
     /// Turns the finished repetition into a run and goes to the next one.

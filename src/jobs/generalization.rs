@@ -58,12 +58,7 @@ fn compute(encoded: &[Vec<u8>], spec: &GeneralizeSpec) -> Outcome {
     }
 }
 
-async fn complete(
-    held: &Held,
-    job: &JobView,
-    request: GeneralizationRequest,
-    made: Generalized,
-) -> Result<(), Gone> {
+async fn complete(held: &Held, job: &JobView, request: GeneralizationRequest, made: Generalized) -> Result<(), Gone> {
     let id = ActionId::from_uuid(held.ports.ids.uuid());
     let view = ActionView {
         id: id.clone(),

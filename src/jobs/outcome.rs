@@ -44,7 +44,12 @@ pub(super) fn finished_run(
         trajectory_problem: Some("trajectories are not planned yet".to_owned()),
         created_at,
     };
-    let goals = RunGoals { run: id, features: work.problem.goals.features().to_vec(), joint_names, goals: goals(&result, work) };
+    let goals = RunGoals {
+        run: id,
+        features: work.problem.goals.features().to_vec(),
+        joint_names,
+        goals: goals(&result, work),
+    };
     Ok(NewRun { view, goals, convergence: convergence(&result), trajectory: None })
 }
 

@@ -213,7 +213,8 @@ fn view(
 
 fn csv(demonstration: &Demonstration) -> Result<Vec<u8>, AppError> {
     let [stream] = demonstration.streams.as_slice() else {
-        let message = format!("the demonstration has {} streams, a CSV file holds one: export json", demonstration.streams.len());
+        let message =
+            format!("the demonstration has {} streams, a CSV file holds one: export json", demonstration.streams.len());
         return Err(AppError::new(ErrorKind::Conflict, "several_streams", message));
     };
     let mut writer = csv::Writer::from_writer(Vec::new());

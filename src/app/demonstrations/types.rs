@@ -174,8 +174,11 @@ impl Export {
     /// A file named after `name`, of which only letters, digits, `-` and `_` are kept.
     #[must_use]
     pub fn new(content_type: &'static str, name: &str, extension: &str, bytes: Vec<u8>) -> Self {
-        let safe: String =
-            name.chars().map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '_' }).take(80).collect();
+        let safe: String = name
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '_' })
+            .take(80)
+            .collect();
         Self { content_type, file_name: format!("{safe}.{extension}"), bytes }
     }
 }

@@ -175,7 +175,11 @@ fn bounds(request: &ExecutionRequest) -> Vec<FieldError> {
     errors
 }
 
-fn look_up<T>(errors: &mut Vec<FieldError>, pointer: &str, found: Result<T, StoreError>) -> Result<Option<T>, AppError> {
+fn look_up<T>(
+    errors: &mut Vec<FieldError>,
+    pointer: &str,
+    found: Result<T, StoreError>,
+) -> Result<Option<T>, AppError> {
     match found {
         Ok(value) => Ok(Some(value)),
         Err(error) => {
@@ -199,9 +203,8 @@ fn estimate(work: &Work) -> Result<CostEstimate, AppError> {
         let basis = "a generalization evaluates nothing".to_owned();
         return Ok(CostEstimate { evaluations: 0, simulated_s: 0.1, robot_s: 0.0, basis });
     };
-    let wrong = |error: &(dyn std::error::Error + 'static)| {
-        AppError::field("/execution", "invalid_problem", chain_text(error))
-    };
+    let wrong =
+        |error: &(dyn std::error::Error + 'static)| AppError::field("/execution", "invalid_problem", chain_text(error));
     let mut iet = Iet::new(&work.problem, work.seed).map_err(|error| wrong(&error))?;
     let mut place = world::build(&work.problem.world, iet.chain()).map_err(|error| wrong(&error))?;
     let started = Instant::now();

@@ -2,9 +2,9 @@
 
 use super::engine_error;
 use crate::app::ports::StoreError;
+use sqlx::ConnectOptions as _;
 use sqlx::migrate::Migrator;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous};
-use sqlx::ConnectOptions as _;
 use std::path::Path;
 use std::time::Duration;
 
