@@ -112,7 +112,7 @@ impl Assembly {
     }
 
     fn finish(self) -> Result<UploadDemonstration, AppError> {
-        let (name, options) = header(self.header.ok_or_else(out_of_order)?);
+        let (name, options) = header(self.header.ok_or_else(out_of_order)?)?;
         Ok(UploadDemonstration { name, files: self.files, options })
     }
 }

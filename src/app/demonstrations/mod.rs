@@ -157,22 +157,29 @@ fn read(upload: UploadDemonstration) -> Result<Read, AppError> {
     Ok((demonstration, findings, hex::encode(content.finalize()), samples))
 }
 
+/// Where in the uploaded data a finding is, as a JSON pointer: `/streams/NAME/rows/ROW/columns/NAME`.
+#[must_use]
+pub fn pointer(finding: &Finding) -> String {
+    let places = [
+        ("streams", finding.stream.clone()),
+        ("rows", finding.row.map(|row| row.to_string())),
+        ("columns", finding.column.clone()),
+    ];
+    let mut pointer = String::new();
+    for (key, value) in places {
+        if let Some(value) = value {
+            pointer = format!("{pointer}/{key}/{}", value.replace('~', "~0").replace('/', "~1"));
+        }
+    }
+    pointer
+}
+
 fn refuse(findings: &[Finding]) -> AppError {
     let errors = findings.iter().filter(|finding| finding.is_error());
     let details: Vec<FieldError> = errors
         .map(|finding| {
-            let mut pointer = String::new();
-            for (key, value) in [
-                ("streams", finding.stream.clone()),
-                ("rows", finding.row.map(|row| row.to_string())),
-                ("columns", finding.column.clone()),
-            ] {
-                if let Some(value) = value {
-                    pointer = format!("{pointer}/{key}/{}", value.replace('~', "~0").replace('/', "~1"));
-                }
-            }
             let detail = format!("{}; {}", finding.message, finding.remedy);
-            FieldError::new(pointer, finding.code.to_string(), detail)
+            FieldError::new(pointer(finding), finding.code.to_string(), detail)
         })
         .collect();
     let too_large = findings.iter().any(|finding| finding.is_error() && finding.code == FindingCode::TooLarge);

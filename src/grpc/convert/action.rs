@@ -14,7 +14,7 @@ impl From<ActionView> for proto::Action {
             goals: view.goals,
             mean_duration_s: view.mean_duration_s,
             t_min_s: view.t_min_s,
-            weighting: super::work::weighting_message(&view.weighting) as i32,
+            weighting: super::work::weighting_message(view.weighting) as i32,
             metric: proto::Metric::from(view.metric) as i32,
             demonstrations: view.demonstrations.into_iter().map(String::from).collect(),
             job: view.job.into(),

@@ -1,19 +1,43 @@
 //! Demonstrations.
 
 use super::{all, text};
-use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, StreamView, UploadOptions};
+use crate::app::AppError;
+use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, StreamView, UploadOptions, pointer};
+use crate::framework::Feature;
+use crate::framework::demonstration::Finding;
 use crate::grpc::proto;
+use serde::de::DeserializeOwned;
 
 /// Display name and options of an upload.
-pub fn header(header: proto::UploadHeader) -> (Option<String>, UploadOptions) {
+///
+/// # Errors
+/// `Invalid` for a format or clock policy that there is not.
+pub fn header(header: proto::UploadHeader) -> Result<(Option<String>, UploadOptions), AppError> {
     let options = UploadOptions {
-        format: text(header.format),
-        clock_policy: text(header.clock_policy),
+        format: choice("/format", header.format)?,
+        clock_policy: choice("/clock_policy", header.clock_policy)?.unwrap_or_default(),
         time_column: text(header.time_column),
-        features: super::list(header.features),
+        features: header.features.into_iter().map(|name| Feature::new(name, "")).collect(),
         units: header.units,
+        ..UploadOptions::default()
     };
-    (text(header.name), options)
+    Ok((text(header.name), options))
+}
+
+/// One of the names that the type has in JSON; none when empty.
+fn choice<T: DeserializeOwned>(pointer: &str, name: String) -> Result<Option<T>, AppError> {
+    let value = text(name).map(|name| serde_json::from_value(serde_json::Value::from(name))).transpose();
+    value.map_err(|error| AppError::field(pointer, "invalid_value", error.to_string()))
+}
+
+impl From<Finding> for proto::Finding {
+    fn from(finding: Finding) -> Self {
+        Self {
+            pointer: pointer(&finding),
+            code: finding.code.to_string(),
+            detail: format!("{}; {}", finding.message, finding.remedy),
+        }
+    }
 }
 
 impl From<DemonstrationView> for proto::Demonstration {

@@ -18,6 +18,7 @@ fn data(data: EventData) -> Data {
             Data::State(proto::JobStateChanged { state, reason, attempt })
         }
         EventData::Progress { progress } => Data::Progress(progress.into()),
+        EventData::Resync => Data::Resync(proto::JobResync {}),
         EventData::Goal { goal } => Data::Goal(goal.into()),
         EventData::Run { run, trajectory, repetition, seed, evaluations, discrepancy, painted_percent, digest } => {
             Data::Run(proto::RunFinished {

@@ -93,7 +93,7 @@ impl From<GoalProgress> for proto::GoalProgress {
             index: goal.index,
             evaluations: goal.evaluations,
             discrepancy: goal.discrepancy,
-            stop_reason: goal.stop_reason,
+            stop_reason: super::run::stop_reason(goal.stop_reason),
             joints: goal.joints,
             observation: goal.observation,
         }

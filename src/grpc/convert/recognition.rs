@@ -2,7 +2,8 @@
 
 use super::{all, finite_or_none, metric, reference, references, required, rows};
 use crate::app::AppError;
-use crate::app::recognitions::{FeatureDiscrepancy, Observed, RecognitionCandidate, RecognitionView, RecognizeRequest};
+use crate::app::recognitions::{Observed, RecognitionCandidate, RecognitionView, RecognizeRequest};
+use crate::framework::recognition::FeatureDiscrepancy;
 use crate::grpc::proto;
 use proto::recognize_request::Observed as Message;
 
@@ -34,7 +35,7 @@ impl From<RecognitionView> for proto::Recognition {
         Self {
             recognized: view.recognized.map(Into::into),
             metric: proto::Metric::from(view.metric) as i32,
-            threshold: view.threshold,
+            threshold: Some(view.threshold),
             candidates: all(view.candidates),
         }
     }

@@ -2,8 +2,8 @@
 
 use super::{all, finite, list, triple};
 use crate::app::AppError;
-use crate::app::robots::{CreateRobot, JointSummary, RobotSummary, RobotView};
-use crate::framework::robot::RobotSpec;
+use crate::app::robots::{CreateRobot, RobotView};
+use crate::framework::robot::{ChainSummary, Gene, RobotSpec};
 use crate::grpc::proto;
 use std::collections::BTreeMap;
 
@@ -61,32 +61,30 @@ impl From<RobotView> for proto::Robot {
             name: view.name,
             version: view.version,
             spec: Some(view.spec.into()),
-            summary: Some(view.summary.into()),
+            summary: Some(summary(view.summary.links.len(), view.chain)),
             urdf_sha256: view.urdf_sha256,
             created_at_ms: view.created_at.0,
         }
     }
 }
 
-impl From<RobotSummary> for proto::RobotSummary {
-    fn from(summary: RobotSummary) -> Self {
-        Self {
-            links: summary.links,
-            base_link: summary.base_link,
-            tip_link: summary.tip_link,
-            joints: all(summary.joints),
-        }
+fn summary(links: usize, chain: ChainSummary) -> proto::RobotSummary {
+    proto::RobotSummary {
+        links: u32::try_from(links).unwrap_or(u32::MAX),
+        base_link: chain.base_link,
+        tip_link: chain.tip_link,
+        joints: all(chain.free_joints),
     }
 }
 
-impl From<JointSummary> for proto::JointSummary {
-    fn from(joint: JointSummary) -> Self {
+impl From<Gene> for proto::JointSummary {
+    fn from(joint: Gene) -> Self {
         Self {
             name: joint.name,
-            kind: joint.kind,
-            free: joint.free,
-            lower: joint.lower,
-            upper: joint.upper,
+            kind: joint.kind.name().to_owned(),
+            free: true,
+            lower: Some(joint.lower),
+            upper: Some(joint.upper),
             velocity: joint.velocity,
             acceleration: joint.acceleration,
         }

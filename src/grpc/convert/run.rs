@@ -2,6 +2,7 @@
 
 use super::all;
 use crate::app::runs::{RunGoal, RunGoals, RunView};
+use crate::framework::optimizer::StopReason;
 use crate::grpc::proto;
 
 impl From<RunView> for proto::Run {
@@ -39,13 +40,24 @@ impl From<RunGoals> for proto::RunGoals {
     }
 }
 
+/// The name it has in JSON.
+pub fn stop_reason(reason: StopReason) -> String {
+    match reason {
+        StopReason::Stagnation => "stagnation",
+        StopReason::Target => "target",
+        StopReason::Tolerance => "tolerance",
+        StopReason::MaxEvaluations => "max_evaluations",
+    }
+    .to_owned()
+}
+
 impl From<RunGoal> for proto::RunGoal {
     fn from(goal: RunGoal) -> Self {
         Self {
             index: goal.index,
             evaluations: goal.evaluations,
             discrepancy: goal.discrepancy,
-            stop_reason: goal.stop_reason,
+            stop_reason: stop_reason(goal.stop_reason),
             joints: goal.joints,
             observation: goal.observation,
             goal: goal.goal,

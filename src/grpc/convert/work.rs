@@ -4,6 +4,7 @@ use super::{finite, finite_or_none, list, metric, reference, references, require
 use crate::app::AppError;
 use crate::app::jobs::{CreateJob, ExecutionRequest, GeneralizationRequest};
 use crate::framework::execution::ExecutionSpec;
+use crate::framework::generalization::Weighting;
 use crate::framework::optimizer::{BoundsRule, MethodSpec, SstSpec};
 use crate::grpc::proto;
 use proto::execution_spec::Method;
@@ -23,7 +24,7 @@ pub fn generalization(work: proto::Generalization) -> Result<GeneralizationReque
         name: work.name,
         demonstrations: references("/demonstrations", &work.demonstrations)?,
         t_min_s: finite("/t_min_s", work.t_min_s)?,
-        weighting: weighting(work.weighting)?.to_owned(),
+        weighting: weighting(work.weighting)?,
         features: list(work.features),
         metric: metric("/metric", work.metric)?,
     })
@@ -67,20 +68,19 @@ fn tournament(sst: &proto::SteadyStateTournament) -> Result<SstSpec, AppError> {
     })
 }
 
-fn weighting(value: i32) -> Result<&'static str, AppError> {
+fn weighting(value: i32) -> Result<Weighting, AppError> {
     match proto::Weighting::try_from(value) {
-        Ok(proto::Weighting::Unspecified | proto::Weighting::PerDemonstration) => Ok("per_demonstration"),
-        Ok(proto::Weighting::PerSample) => Ok("per_sample"),
+        Ok(proto::Weighting::Unspecified | proto::Weighting::PerDemonstration) => Ok(Weighting::PerDemonstration),
+        Ok(proto::Weighting::PerSample) => Ok(Weighting::PerSample),
         Err(_) => Err(AppError::field("/weighting", "invalid_value", format!("{value} is no weighting"))),
     }
 }
 
-/// The weighting of that name.
-pub fn weighting_message(name: &str) -> proto::Weighting {
-    match name {
-        "per_sample" => proto::Weighting::PerSample,
-        "per_demonstration" => proto::Weighting::PerDemonstration,
-        _ => proto::Weighting::Unspecified,
+/// The same weighting.
+pub fn weighting_message(weighting: Weighting) -> proto::Weighting {
+    match weighting {
+        Weighting::PerSample => proto::Weighting::PerSample,
+        Weighting::PerDemonstration => proto::Weighting::PerDemonstration,
     }
 }
 
@@ -100,7 +100,7 @@ impl From<GeneralizationRequest> for proto::Generalization {
             name: work.name,
             demonstrations: work.demonstrations.into_iter().map(String::from).collect(),
             t_min_s: work.t_min_s,
-            weighting: weighting_message(&work.weighting) as i32,
+            weighting: weighting_message(work.weighting) as i32,
             features: work.features.unwrap_or_default(),
             metric: proto::Metric::from(work.metric) as i32,
         }
