@@ -35,7 +35,7 @@ pub fn local_distances(observation: &[f64], goals: &[f64], out: &mut [f64]) {
 
 /// One row of the accumulated matrix from the row before it; allocates nothing.
 ///
-/// `previous` is row i-1, or empty for the first row; `local` holds d[i][0..J]; `out` receives D[i][0..J]. With
+/// `previous` is row i-1, or empty for the first row; `local` holds `d[i][0..J]`; `out` receives `D[i][0..J]`. With
 /// `previous` longer than `local` only its first `local.len()` columns are read, so a caller may keep full rows and ask
 /// for the first j columns of the next.
 ///
@@ -75,7 +75,7 @@ fn first_row(local: &[f64], border: Border, out: &mut [f64]) {
     }
 }
 
-/// The distance D[I-1][J-1] in O(J) memory.
+/// The distance `D[I-1][J-1]` in O(J) memory.
 ///
 /// `observed` and `goals` are row-major with `features` columns.
 ///
@@ -101,7 +101,7 @@ pub fn distance(observed: &[f64], goals: &[f64], features: usize, border: Border
 /// The distance with its optimal path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alignment {
-    /// D[I-1][J-1], features' unit.
+    /// `D[I-1][J-1]`, features' unit.
     pub distance: f64,
     /// Pairs (row of the observation, goal) from the first to the last, each step forward by one in either or both.
     pub path: Vec<(usize, usize)>,
