@@ -42,7 +42,7 @@ pub struct RecognizeRequest {
     /// How the discrepancy is measured.
     #[serde(default)]
     pub metric: Metric,
-    /// Largest relative discrepancy of a recognised action (no unit); 0.2 when absent.
+    /// Largest relative discrepancy of a recognised action (no unit); 0.3 when absent.
     #[serde(default)]
     pub threshold: Option<f64>,
 }
