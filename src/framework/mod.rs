@@ -13,6 +13,7 @@ pub mod feature;
 pub mod generalization;
 pub mod job;
 pub mod optimizer;
+pub mod preset;
 pub mod recognition;
 pub mod robot;
 pub mod trajectory;

@@ -13,6 +13,8 @@ pub struct PartialDiscrepancy {
     border: Border,
     /// Features in one path: m, or 1 where each feature has its own.
     width: usize,
+    /// Whether a path's cost is divided by its rows, as `sum_of_features` does.
+    normalised: bool,
     planes: Vec<Plane>,
     local: Vec<f64>,
     row: Vec<f64>,
@@ -43,6 +45,7 @@ impl PartialDiscrepancy {
         Self {
             border,
             width: if metric == Metric::SumOfFeatures { 1 } else { m },
+            normalised: metric == Metric::SumOfFeatures,
             planes: planes.into_iter().map(|goals| Plane { goals, previous: Vec::new() }).collect(),
             local: vec![0.0; goals.len()],
             row: vec![0.0; goals.len()],
@@ -58,11 +61,13 @@ impl PartialDiscrepancy {
     #[must_use]
     pub fn of(&mut self, observation: &[f64]) -> f64 {
         let columns = self.observed + 1;
+        // sum of features: each path is normalised by its rows, observed and goals
+        let length = if self.normalised { 2.0 * columns as f64 } else { 1.0 };
         let mut sum = 0.0;
         for (plane, part) in self.planes.iter().zip(observation.chunks_exact(self.width)) {
             local_distances(part, &plane.goals, &mut self.local[..columns]);
             extend_row(&plane.previous, &self.local[..columns], self.border, &mut self.row[..columns]);
-            sum += self.row[columns - 1];
+            sum += self.row[columns - 1] / length;
         }
         sum
     }
@@ -86,7 +91,7 @@ impl PartialDiscrepancy {
 mod tests {
     use super::*;
     use crate::framework::Feature;
-    use crate::framework::recognition::dtw::distance;
+    use crate::framework::recognition::discrepancy;
     use proptest::prelude::*;
 
     proptest! {
@@ -101,14 +106,7 @@ mod tests {
                 let mut partial = PartialDiscrepancy::new(&matrix, metric);
                 for j in 1..=goals.len() {
                     let observation = &seen[2 * (j - 1)..2 * j];
-                    let whole = match metric {
-                        Metric::Multivariate => distance(&seen[..2 * j], &matrix.values()[..2 * j], 2, Border::Accumulated),
-                        Metric::Aquila => distance(&seen[..2 * j], &matrix.values()[..2 * j], 2, Border::Local),
-                        Metric::SumOfFeatures => (0..2).map(|k| {
-                            let column = |v: &[f64]| v[..2 * j].iter().skip(k).step_by(2).copied().collect::<Vec<_>>();
-                            distance(&column(&seen), &column(matrix.values()), 1, Border::Accumulated)
-                        }).sum(),
-                    };
+                    let whole = discrepancy(metric, &seen[..2 * j], &matrix.values()[..2 * j], 2);
                     prop_assert_eq!(partial.of(observation).to_bits(), whole.to_bits());
                     partial.append(observation);
                 }

@@ -9,6 +9,8 @@ mod setup;
 mod simulate;
 mod spec;
 mod state;
+#[cfg(test)]
+mod tests;
 
 pub use discrepancy::PartialDiscrepancy;
 pub use error::ProblemError;

@@ -1,0 +1,174 @@
+//! Presets: a whole problem as TOML, robot and world named by files beside it.
+//!
+//! Pure: the text of a named file comes from the caller's resolver. The shipped presets (`examples/presets`) are part
+//! of the program, so that they work wherever it is installed.
+
+use crate::framework::execution::{ExecutionSpec, Problem};
+use crate::framework::generalization::Goals;
+use crate::framework::robot::RobotSpec;
+use crate::framework::world::WorldSpec;
+use serde::Deserialize;
+
+/// A named problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Preset {
+    /// Name without folder and ending.
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// Everything an execution needs.
+    pub problem: Problem,
+}
+
+/// Why a text is not a preset.
+#[derive(Debug, thiserror::Error)]
+pub enum PresetError {
+    /// No shipped preset has that name.
+    #[error("no preset is named {name:?}; shipped are {shipped:?}; a path to a TOML file is taken too")]
+    Unknown {
+        /// The name given.
+        name: String,
+        /// Names of the shipped presets.
+        shipped: Vec<&'static str>,
+    },
+    /// A file that cannot be had.
+    #[error("{file:?}, which preset {preset:?} names, cannot be read: {reason}")]
+    File {
+        /// The preset.
+        preset: String,
+        /// The file it names.
+        file: String,
+        /// The resolver's word.
+        reason: String,
+    },
+    /// TOML that does not fit; the message shows line and column.
+    #[error("{file} is no valid {what}: {source}")]
+    Toml {
+        /// The file.
+        file: String,
+        /// `preset` or `world`.
+        what: &'static str,
+        /// Line, column and what is wrong there.
+        #[source]
+        source: Box<toml::de::Error>,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPreset {
+    description: String,
+    world: String,
+    goals: Goals,
+    robot: RawRobot,
+    execution: ExecutionSpec,
+}
+
+/// [`RobotSpec`] and the URDF's file.
+#[derive(Deserialize)]
+struct RawRobot {
+    urdf: String,
+    #[serde(flatten)]
+    spec: RobotSpec,
+}
+
+/// The shipped files: path as presets name it, and text.
+const FILES: [(&str, &str); 3] = [
+    ("../robots/teo_right_arm.urdf", include_str!("../../../examples/robots/teo_right_arm.urdf")),
+    ("../worlds/paint_wall.toml", include_str!("../../../examples/worlds/paint_wall.toml")),
+    ("../worlds/tool_position_mm.toml", include_str!("../../../examples/worlds/tool_position_mm.toml")),
+];
+
+/// The shipped presets: name and text.
+const SHIPPED: [(&str, &str); 5] = [
+    ("wax", include_str!("../../../examples/presets/wax.toml")),
+    ("wax-reachable", include_str!("../../../examples/presets/wax-reachable.toml")),
+    ("paint", include_str!("../../../examples/presets/paint.toml")),
+    ("paper-wax", include_str!("../../../examples/presets/paper-wax.toml")),
+    ("paper-paint", include_str!("../../../examples/presets/paper-paint.toml")),
+];
+
+/// Names of the shipped presets.
+#[must_use]
+pub fn names() -> Vec<&'static str> {
+    SHIPPED.iter().map(|(name, _)| *name).collect()
+}
+
+/// The shipped preset of that name.
+///
+/// # Errors
+/// [`PresetError::Unknown`] lists the names there are.
+pub fn shipped(name: &str) -> Result<Preset, PresetError> {
+    let unknown = || PresetError::Unknown { name: name.to_owned(), shipped: names() };
+    let (_, text) = SHIPPED.iter().find(|(n, _)| *n == name).ok_or_else(unknown)?;
+    parse(name, text, |file| {
+        let found = FILES.iter().find(|(path, _)| *path == file);
+        found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "it is not shipped".to_owned())
+    })
+}
+
+/// Reads a preset; `resolve` gives the text of a file by its path relative to the preset.
+///
+/// # Errors
+/// [`PresetError`] with file, line and column.
+pub fn parse(
+    name: &str,
+    text: &str,
+    mut resolve: impl FnMut(&str) -> Result<String, String>,
+) -> Result<Preset, PresetError> {
+    let raw: RawPreset = toml::from_str(text).map_err(|source| PresetError::Toml {
+        file: name.to_owned(),
+        what: "preset",
+        source: Box::new(source),
+    })?;
+    let mut file = |file: &str| {
+        resolve(file).map_err(|reason| PresetError::File { preset: name.to_owned(), file: file.to_owned(), reason })
+    };
+    let urdf = file(&raw.robot.urdf)?;
+    let world = parse_world(&raw.world, &file(&raw.world)?)?;
+    Ok(Preset {
+        name: name.to_owned(),
+        description: raw.description,
+        problem: Problem { goals: raw.goals, urdf, robot: raw.robot.spec, world, execution: raw.execution },
+    })
+}
+
+/// Reads a world file.
+///
+/// # Errors
+/// [`PresetError::Toml`] with line and column.
+pub fn parse_world(file: &str, text: &str) -> Result<WorldSpec, PresetError> {
+    toml::from_str(text).map_err(|source| PresetError::Toml {
+        file: file.to_owned(),
+        what: "world",
+        source: Box::new(source),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::framework::execution::Iet;
+
+    #[test]
+    fn every_shipped_preset_can_be_run() {
+        for name in names() {
+            let preset = shipped(name).unwrap();
+            let iet = Iet::new(&preset.problem, 1).unwrap();
+            assert_eq!(iet.chain().len(), 3, "{name}");
+        }
+    }
+
+    #[test]
+    fn errors_say_where() {
+        let error = shipped("wash").unwrap_err().to_string();
+        assert!(error.contains("\"wash\"") && error.contains("\"paper-wax\""), "{error}");
+        let error = parse("mine", "description = 3", |_| Ok(String::new())).unwrap_err().to_string();
+        assert!(error.contains("mine") && error.contains("line 1"), "{error}");
+        let text = include_str!("../../../examples/presets/wax.toml");
+        let error = parse("mine", text, |_| Err("no such file".into())).unwrap_err().to_string();
+        assert!(error.contains("teo_right_arm.urdf") && error.contains("no such file"), "{error}");
+        let misspelt = text.replace("free_joints", "free_joint");
+        assert!(parse("mine", &misspelt, |_| Ok(String::new())).is_err());
+    }
+}
