@@ -7,6 +7,7 @@ mod demonstrations;
 mod generalize;
 mod openapi;
 mod recognize;
+mod run;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -23,6 +24,7 @@ pub struct Arguments {
 enum Command {
     Generalize(generalize::GeneralizeArguments),
     Recognize(recognize::RecognizeArguments),
+    Run(run::RunArguments),
     /// Print the OpenAPI 3.1 document of the REST interface.
     Openapi,
 }
@@ -33,6 +35,7 @@ pub fn main(arguments: &Arguments) -> ExitCode {
     let result = match &arguments.command {
         Command::Generalize(arguments) => generalize::run(arguments),
         Command::Recognize(arguments) => recognize::run(arguments),
+        Command::Run(arguments) => run::run(arguments),
         Command::Openapi => openapi::run(),
     };
     match result {

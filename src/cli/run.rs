@@ -1,0 +1,88 @@
+//! `cgda run`: a problem, from a preset or from demonstrations, searched for R seeds over all cores.
+
+mod output;
+mod problem;
+
+use crate::framework::execution::{Iet, Problem, RunResult, simulate};
+use crate::framework::world;
+use anyhow::Context as _;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use std::io::{IsTerminal as _, Write as _};
+use std::path::PathBuf;
+
+/// Evaluations between two looks at the progress bar.
+const SLICE: u64 = 2_000;
+
+/// Find the joint trajectory that produces the demonstrated effects.
+#[derive(Debug, clap::Args)]
+pub struct RunArguments {
+    #[command(flatten)]
+    problem: problem::ProblemArguments,
+    /// Seed of the first repetition; the others count up from it.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Independent runs, seeds counting up.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    repetitions: u32,
+    /// Threads; all cores when absent. The result does not depend on it.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Write each run's trajectory there, as CSV, JSON and ROS 2 JointTrajectory.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object on stdout.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the problem and prints its results.
+///
+/// # Errors
+/// Bad input, a problem whose parts do not fit, files that cannot be written.
+pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
+    let named = problem::read(&arguments.problem)?;
+    // fails before any thread starts
+    Iet::new(&named.problem, arguments.seed)?;
+    let last = u64::from(arguments.repetitions - 1);
+    arguments.seed.checked_add(last).context("the last repetition's seed is beyond 64 bits: give a smaller --seed")?;
+    let seeds: Vec<u64> = (0..=last).map(|offset| arguments.seed + offset).collect();
+    let runs = search(&named.problem, &seeds, arguments.threads)?;
+    if let Some(directory) = &arguments.out {
+        output::write_trajectories(directory, &named, &runs)?;
+    }
+    let text = if arguments.json { output::json(&named, arguments.seed, &runs)? } else { output::table(&named, &runs) };
+    std::io::stdout().lock().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+/// All runs, in the order of `seeds`.
+fn search(problem: &Problem, seeds: &[u64], threads: Option<u16>) -> anyhow::Result<Vec<RunResult>> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build()?;
+    let bar = progress_bar((seeds.len() * problem.goals.len()) as u64);
+    let runs = pool.install(|| seeds.par_iter().map(|&seed| one(problem, seed, &bar)).collect());
+    bar.finish_and_clear();
+    runs
+}
+
+fn one(problem: &Problem, seed: u64, bar: &ProgressBar) -> anyhow::Result<RunResult> {
+    let mut iet = Iet::new(problem, seed)?;
+    let mut world = world::build(&problem.world, iet.chain())?;
+    let mut goals_done = 0;
+    while !iet.is_finished() {
+        simulate(&mut iet, world.as_mut(), SLICE).with_context(|| format!("seed {seed}"))?;
+        let done = iet.prefix().len();
+        bar.inc((done - goals_done) as u64);
+        goals_done = done;
+    }
+    Ok(iet.finish()?)
+}
+
+fn progress_bar(goals: u64) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} goals  {elapsed} elapsed, {eta} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(goals).with_style(style)
+}

@@ -1,0 +1,157 @@
+//! Which problem `cgda run` runs: a preset, or demonstrations with a robot and a world.
+
+use crate::cli::demonstrations::{ReadArguments, read_demonstrations};
+use crate::framework::execution::{ExecutionSpec, Problem};
+use crate::framework::generalization::{GeneralizeSpec, Weighting, generalize};
+use crate::framework::optimizer::{MethodSpec, SstSpec};
+use crate::framework::preset::{self, Preset};
+use crate::framework::recognition::Metric;
+use crate::framework::robot::RobotSpec;
+use anyhow::{Context as _, bail};
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct ProblemArguments {
+    /// Demonstrations: a file is one of a single stream, a directory one of a stream in each file.
+    #[arg(conflicts_with = "preset", required_unless_present = "preset")]
+    files: Vec<PathBuf>,
+    /// wax, wax-reachable, paint, paper-wax, paper-paint, or the path of a TOML file.
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// Optimisation method; the preset's own parameters hold when it is the preset's method.
+    #[arg(long, value_enum)]
+    method: Option<Method>,
+    /// A goal ends when an observation is this near to it (Euclidean, features' unit).
+    #[arg(long)]
+    tolerance: Option<f64>,
+    /// A goal ends when the discrepancy is at most this (features' unit).
+    #[arg(long)]
+    target_discrepancy: Option<f64>,
+    /// A goal ends after this many evaluations.
+    #[arg(long, value_name = "EVALUATIONS")]
+    max_evaluations_per_goal: Option<u64>,
+    /// How discrepancies are measured.
+    #[arg(long, value_enum)]
+    metric: Option<Metric>,
+    /// The robot: a URDF file.
+    #[arg(long, value_name = "URDF", required_unless_present = "preset", conflicts_with = "preset")]
+    robot: Option<PathBuf>,
+    /// First link of the chain; the root when absent.
+    #[arg(long, value_name = "LINK", conflicts_with = "preset")]
+    base_link: Option<String>,
+    /// Last link of the chain; the only leaf when absent.
+    #[arg(long, value_name = "LINK", conflicts_with = "preset")]
+    tip_link: Option<String>,
+    /// Joint to search, in gene order; may be repeated, all movable when absent.
+    #[arg(long = "free", value_name = "JOINT", conflicts_with = "preset")]
+    free: Vec<String>,
+    /// Joint held at a value (rad or m); may be repeated.
+    #[arg(long = "fixed", value_name = "JOINT=VALUE", value_parser = joint_value, conflicts_with = "preset")]
+    fixed: Vec<(String, f64)>,
+    /// The world: a TOML file.
+    #[arg(long, value_name = "FILE", required_unless_present = "preset", conflicts_with = "preset")]
+    world: Option<PathBuf>,
+    /// Time of one goal; n = mean duration / this.
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, conflicts_with = "preset")]
+    t_min: f64,
+    /// Whether each demonstration counts alike, or each sample.
+    #[arg(long, value_enum, default_value_t = Weighting::PerDemonstration, conflicts_with = "preset")]
+    weighting: Weighting,
+    /// Feature to keep; may be repeated, all when absent.
+    #[arg(long = "feature", value_name = "NAME", conflicts_with = "preset")]
+    features: Vec<String>,
+    #[command(flatten)]
+    read: ReadArguments,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Method {
+    /// Steady-state tournament.
+    Sst,
+}
+
+impl Method {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Sst => "sst",
+        }
+    }
+
+    fn with_defaults(self) -> MethodSpec {
+        match self {
+            Self::Sst => MethodSpec::Sst(SstSpec::default()),
+        }
+    }
+}
+
+fn joint_value(argument: &str) -> Result<(String, f64), String> {
+    let help = "give JOINT=VALUE in rad or m, for example wrist_yaw=-0.785";
+    let (joint, value) = argument.split_once('=').ok_or(help)?;
+    Ok((joint.to_owned(), value.parse().map_err(|_| help)?))
+}
+
+/// The problem the arguments name.
+pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
+    let mut named = match &arguments.preset {
+        Some(name) => read_preset(name)?,
+        None => from_demonstrations(arguments)?,
+    };
+    let execution = &mut named.problem.execution;
+    if let Some(method) = arguments.method.filter(|m| m.name() != execution.method.name()) {
+        execution.method = method.with_defaults();
+    }
+    execution.tolerance = arguments.tolerance.or(execution.tolerance);
+    execution.target_discrepancy = arguments.target_discrepancy.or(execution.target_discrepancy);
+    execution.max_evaluations_per_goal = arguments.max_evaluations_per_goal.or(execution.max_evaluations_per_goal);
+    execution.metric = arguments.metric.unwrap_or(execution.metric);
+    Ok(named)
+}
+
+fn read_text(path: &Path) -> anyhow::Result<String> {
+    std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+fn read_preset(name: &str) -> anyhow::Result<Preset> {
+    let path = Path::new(name);
+    let is_file = path.extension().is_some_and(|e| e == "toml") || path.components().count() > 1;
+    if !is_file {
+        return Ok(preset::shipped(name)?);
+    }
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let stem = path.file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
+    let resolve = |file: &str| std::fs::read_to_string(folder.join(file)).map_err(|e| e.to_string());
+    Ok(preset::parse(&stem, &read_text(path)?, resolve)?)
+}
+
+fn from_demonstrations(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
+    let (Some(robot), Some(world)) = (&arguments.robot, &arguments.world) else {
+        bail!("demonstrations need --robot URDF and --world FILE");
+    };
+    let urdf = read_text(robot)?;
+    let world = preset::parse_world(&world.display().to_string(), &read_text(world)?)?;
+    let demonstrations = read_demonstrations(&arguments.files, &arguments.read)?;
+    let features = (!arguments.features.is_empty()).then(|| arguments.features.clone());
+    let spec = GeneralizeSpec { t_min_s: arguments.t_min, weighting: arguments.weighting, features };
+    let generalized = generalize(&demonstrations, &spec)?;
+    let robot = RobotSpec {
+        base_link: arguments.base_link.clone(),
+        tip_link: arguments.tip_link.clone(),
+        free_joints: (!arguments.free.is_empty()).then(|| arguments.free.clone()),
+        fixed: arguments.fixed.iter().cloned().collect(),
+        ..RobotSpec::default()
+    };
+    let execution = ExecutionSpec {
+        method: MethodSpec::Sst(SstSpec::default()),
+        metric: Metric::default(),
+        target_discrepancy: Some(0.0),
+        tolerance: None,
+        max_evaluations_per_goal: None,
+        rounding_noise: 0.0,
+    };
+    let count = demonstrations.len();
+    Ok(Preset {
+        name: "demonstrations".to_owned(),
+        description: format!("{} goals from {count} demonstrations", generalized.goals.len()),
+        problem: Problem { goals: generalized.goals, urdf, robot, world, execution },
+    })
+}
