@@ -1,1 +1,64 @@
-//! Start-up gates, signals and orderly shutdown.
+//! Start-up gates, the accept loop, signals: what a server needs around its work.
+
+mod accept;
+mod data_dir;
+mod system;
+
+pub use accept::{Limits, accept};
+pub use data_dir::{DataDir, DataDirError};
+pub use system::{SystemClock, SystemIds};
+
+use tokio::signal::unix::{Signal, SignalKind, signal};
+use tokio_util::sync::CancellationToken;
+
+/// Exit code of a start-up gate that did not open (`EX_CONFIG`).
+pub const EXIT_GATE: u8 = 78;
+
+/// A start-up gate that did not open: the server exits with 78 and this reason.
+#[derive(Debug, thiserror::Error)]
+#[error("refused to start: {reason}")]
+pub struct GateClosed {
+    /// Which gate, and what to do.
+    pub reason: String,
+    /// What it was told.
+    #[source]
+    pub source: Option<anyhow::Error>,
+}
+
+impl GateClosed {
+    /// A gate that an error keeps closed.
+    pub fn because(error: impl Into<anyhow::Error>) -> Self {
+        let error: anyhow::Error = error.into();
+        Self { reason: error.to_string(), source: error.source().map(|cause| anyhow::anyhow!("{cause}")) }
+    }
+
+    /// A gate that stays closed by rule.
+    pub fn rule(reason: impl Into<String>) -> Self {
+        Self { reason: reason.into(), source: None }
+    }
+}
+
+/// Cancelled by SIGTERM or SIGINT; a second signal ends the process at once.
+///
+/// # Errors
+/// When the handlers cannot be installed.
+pub fn stop_signal() -> std::io::Result<CancellationToken> {
+    let stop = CancellationToken::new();
+    let (mut terminate, mut interrupt) = (signal(SignalKind::terminate())?, signal(SignalKind::interrupt())?);
+    let cancelled = stop.clone();
+    tokio::spawn(async move {
+        either(&mut terminate, &mut interrupt).await;
+        tracing::info!("stopping: a second signal ends at once");
+        cancelled.cancel();
+        either(&mut terminate, &mut interrupt).await;
+        std::process::exit(130);
+    });
+    Ok(stop)
+}
+
+async fn either(terminate: &mut Signal, interrupt: &mut Signal) {
+    tokio::select! {
+        _ = terminate.recv() => {}
+        _ = interrupt.recv() => {}
+    }
+}

@@ -5,10 +5,13 @@
 
 mod demonstrations;
 mod generalize;
+mod healthcheck;
 mod openapi;
 mod recognize;
 mod run;
+mod serve;
 
+use crate::lifecycle::{EXIT_GATE, GateClosed};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
@@ -25,6 +28,8 @@ enum Command {
     Generalize(generalize::GeneralizeArguments),
     Recognize(recognize::RecognizeArguments),
     Run(run::RunArguments),
+    Serve(serve::ServeArguments),
+    Healthcheck(healthcheck::HealthcheckArguments),
     /// Print the OpenAPI 3.1 document of the REST interface.
     Openapi,
 }
@@ -36,13 +41,15 @@ pub fn main(arguments: &Arguments) -> ExitCode {
         Command::Generalize(arguments) => generalize::run(arguments),
         Command::Recognize(arguments) => recognize::run(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Serve(arguments) => serve::run(arguments),
+        Command::Healthcheck(arguments) => healthcheck::run(arguments),
         Command::Openapi => openapi::run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");
-            ExitCode::FAILURE
+            if error.is::<GateClosed>() { ExitCode::from(EXIT_GATE) } else { ExitCode::FAILURE }
         }
     }
 }

@@ -4,13 +4,14 @@
 use super::{
     CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work,
 };
-use crate::app::ports::{SEED_BOUND, StoreError, Usage};
+use crate::app::ports::{Clock, SEED_BOUND, StoreError, Usage};
 use crate::app::{App, AppError, ErrorKind, FieldError, chain_text, check_name, compute};
 use crate::framework::execution::{Iet, Problem, simulate};
 use crate::framework::generalization::Goals;
 use crate::framework::world;
 use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Duration;
 
 /// Most repetitions of one job.
 const MAX_REPETITIONS: u32 = 1000;
@@ -62,7 +63,10 @@ impl App {
     /// Only when the service is at fault: what is wrong with the request is in the answer.
     pub async fn validate_job(&self, request: CreateJob) -> Result<Validation, AppError> {
         let estimate = match self.resolve(request).await {
-            Ok(resolved) => compute(move || estimate(&resolved.work)).await?,
+            Ok(resolved) => {
+                let clock = Arc::clone(&self.ports.clock);
+                compute(move || estimate(&resolved.work, clock.as_ref())).await?
+            }
             Err(error) => Err(error),
         };
         match estimate {
@@ -198,7 +202,7 @@ fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, 
 }
 
 /// Runs the first repetition for a short while and scales up what it took.
-fn estimate(work: &Work) -> Result<CostEstimate, AppError> {
+fn estimate(work: &Work, clock: &dyn Clock) -> Result<CostEstimate, AppError> {
     let Work::Execution(work) = work else {
         let basis = "a generalization evaluates nothing".to_owned();
         return Ok(CostEstimate { evaluations: 0, simulated_s: 0.1, robot_s: 0.0, basis });
@@ -207,12 +211,13 @@ fn estimate(work: &Work) -> Result<CostEstimate, AppError> {
         |error: &(dyn std::error::Error + 'static)| AppError::field("/execution", "invalid_problem", chain_text(error));
     let mut iet = Iet::new(&work.problem, work.seed).map_err(|error| wrong(&error))?;
     let mut place = world::build(&work.problem.world, iet.chain()).map_err(|error| wrong(&error))?;
-    let started = Instant::now();
+    let started = clock.monotonic();
+    let elapsed = || clock.monotonic().saturating_sub(started);
     let mut progress = iet.progress();
-    while !progress.finished && progress.evaluations < TRIAL_EVALUATIONS && started.elapsed() < TRIAL_TIME {
+    while !progress.finished && progress.evaluations < TRIAL_EVALUATIONS && elapsed() < TRIAL_TIME {
         progress = simulate(&mut iet, place.as_mut(), 1000).map_err(|error| wrong(&error))?;
     }
-    let per_evaluation_s = started.elapsed().as_secs_f64() / progress.evaluations.max(1) as f64;
+    let per_evaluation_s = elapsed().as_secs_f64() / progress.evaluations.max(1) as f64;
     let goals = progress.goals as f64;
     let (evaluations_of_one, basis) = if progress.finished {
         (progress.evaluations as f64, "the first repetition, simulated to its end".to_owned())

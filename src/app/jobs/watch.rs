@@ -11,7 +11,7 @@ use futures_util::stream::{self, BoxStream};
 use std::collections::VecDeque;
 use std::time::Duration;
 use tokio::sync::broadcast::{Receiver, error::RecvError};
-use tokio::time::{Instant, timeout_at};
+use tokio::time::timeout;
 
 /// Longest that a lost hint can delay a follower.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
@@ -47,21 +47,22 @@ impl Follower {
             self.end = page.end;
             self.page = page.events.into();
             if self.page.is_empty() && !self.end {
-                woken(&mut self.wakes, &self.id, Instant::now() + LOOK_AGAIN).await;
+                // A hint that does not come is made up for by looking again.
+                let _ = timeout(LOOK_AGAIN, woken(&mut self.wakes, &self.id)).await;
             }
         }
     }
 }
 
-/// Returns when `id` may have changed, at the latest at `deadline`.
-async fn woken(wakes: &mut Receiver<Wake>, id: &JobId, deadline: Instant) {
+/// Returns when `id` may have changed.
+async fn woken(wakes: &mut Receiver<Wake>, id: &JobId) {
     loop {
-        match timeout_at(deadline, wakes.recv()).await {
-            Ok(Ok(Wake::Job(job))) if job == *id => return,
-            Ok(Ok(_)) => {}
-            Err(_) | Ok(Err(RecvError::Lagged(_))) => return,
+        match wakes.recv().await {
+            Ok(Wake::Job(job)) if job == *id => return,
+            Ok(_) => {}
+            Err(RecvError::Lagged(_)) => return,
             // Nobody publishes any more: only the clock is left.
-            Ok(Err(RecvError::Closed)) => return tokio::time::sleep_until(deadline).await,
+            Err(RecvError::Closed) => std::future::pending().await,
         }
     }
 }
@@ -93,19 +94,23 @@ impl App {
         Ok(events.boxed())
     }
 
-    /// The job as soon as it has an event after `after_seq` or is final, at the latest after `timeout` (at most 60 s).
+    /// The job as soon as it has an event after `after_seq` or is final, at the latest after `limit` (at most 60 s).
     ///
     /// # Errors
     /// `NotFound`.
-    pub async fn wait_job(&self, id: &JobId, after_seq: u64, timeout: Duration) -> Result<JobView, AppError> {
+    pub async fn wait_job(&self, id: &JobId, after_seq: u64, limit: Duration) -> Result<JobView, AppError> {
         let mut wakes = self.ports.events.subscribe();
-        let deadline = Instant::now() + timeout.min(MAX_WAIT);
+        let time_is_up = tokio::time::sleep(limit.min(MAX_WAIT));
+        tokio::pin!(time_is_up);
         loop {
             let job = self.get_job(id).await?;
-            if job.last_seq > after_seq || job.state.is_final() || Instant::now() >= deadline {
+            if job.last_seq > after_seq || job.state.is_final() {
                 return Ok(job);
             }
-            woken(&mut wakes, id, deadline.min(Instant::now() + LOOK_AGAIN)).await;
+            tokio::select! {
+                _ = timeout(LOOK_AGAIN, woken(&mut wakes, id)) => {}
+                () = &mut time_is_up => return self.get_job(id).await,
+            }
         }
     }
 }

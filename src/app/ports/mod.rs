@@ -5,9 +5,9 @@ mod events;
 mod ids;
 mod store;
 
-pub use clock::{Clock, SystemClock};
+pub use clock::Clock;
 pub use events::{Events, LocalEvents, Wake};
-pub use ids::{Ids, SEED_BOUND, SystemIds};
+pub use ids::{Ids, SEED_BOUND};
 pub use store::{
     Advance, Claim, Claimed, IdempotencyKey, NewDemonstration, NewJob, NewRobot, NewRun, Store, StoreError, Submitted,
     Transition, Usage,

@@ -1,0 +1,190 @@
+//! `cgda serve`: the service with its dashboard, REST and gRPC on one address.
+
+mod demo;
+
+use crate::app::ports::LocalEvents;
+use crate::app::{Access, App, Ports};
+use crate::config::{Config, Flags, LogFormat, ServerConfig};
+use crate::jobs::{Runner, Settings};
+use crate::lifecycle::{self, DataDir, GateClosed, SystemClock, SystemIds};
+use crate::store::sqlite::SqliteStore;
+use crate::{grpc, http, telemetry};
+use anyhow::Context as _;
+use secrecy::{ExposeSecret as _, SecretString};
+use std::io::Write as _;
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::net::TcpListener;
+
+/// Workers have so long to write their checkpoints after a signal.
+const SHUT_DOWN: Duration = Duration::from_secs(8);
+
+/// Serve the dashboard, REST and gRPC; one line on stdout tells the addresses once it is ready.
+///
+/// Every setting can also stand in a file (cgda.toml) or in the environment (CGDA_SERVER__LISTEN); flags win.
+#[derive(Debug, clap::Args)]
+pub struct ServeArguments {
+    /// Configuration file; cgda.toml in the working directory if it is there.
+    #[arg(long, env = "CGDA_CONFIG", value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Folder of everything that is kept [default: cgda-data]
+    #[arg(long, value_name = "DIR")]
+    data_dir: Option<PathBuf>,
+    /// Address of HTTP and gRPC; port 0 takes a free one [default: 127.0.0.1:8080]
+    #[arg(long, value_name = "ADDRESS")]
+    listen: Option<SocketAddr>,
+    /// Token that clients must show; made at the first start and kept in the data directory when absent.
+    #[arg(long, env = "CGDA_TOKEN", hide_env_values = true, value_name = "TOKEN")]
+    token: Option<SecretString>,
+    /// Allow an address that other machines can reach, although the token then crosses the network readable.
+    #[arg(long)]
+    allow_remote: bool,
+    /// Jobs at a time [default: one a core]
+    #[arg(long, value_name = "N")]
+    workers: Option<usize>,
+    /// How log lines are written [default: text]
+    #[arg(long, value_name = "FORMAT")]
+    log_format: Option<LogFormat>,
+    /// Fill an empty database with the shipped demonstrations, robot and worlds, and start a wax and a paint job.
+    #[arg(long)]
+    demo: bool,
+}
+
+impl ServeArguments {
+    fn flags(&self) -> Flags {
+        let mut server = Flags::new();
+        let mut jobs = Flags::new();
+        let mut log = Flags::new();
+        if let Some(path) = &self.data_dir {
+            server.insert("data_dir".to_owned(), path.display().to_string().into());
+        }
+        if let Some(address) = self.listen {
+            server.insert("listen".to_owned(), address.to_string().into());
+        }
+        if self.allow_remote {
+            server.insert("allow_remote".to_owned(), true.into());
+        }
+        if let Some(workers) = self.workers {
+            jobs.insert("workers".to_owned(), workers.into());
+        }
+        if let Some(format) = self.log_format {
+            let name = if format == LogFormat::Json { "json" } else { "text" };
+            log.insert("format".to_owned(), name.into());
+        }
+        let sections = [("server", server), ("jobs", jobs), ("log", log)];
+        sections.into_iter().map(|(name, keys)| (name.to_owned(), keys.into())).collect()
+    }
+}
+
+/// Serves until a signal.
+///
+/// # Errors
+/// [`GateClosed`] when a start-up gate does not open; whatever else keeps the server from starting.
+pub fn run(arguments: &ServeArguments) -> anyhow::Result<()> {
+    let config = Config::load(arguments.config.as_deref(), arguments.flags()).map_err(GateClosed::because)?;
+    telemetry::start(&config.log)?;
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
+    let served = runtime.block_on(serve(&config, arguments));
+    // Work that blocks has been given its time already.
+    runtime.shutdown_timeout(Duration::from_millis(500));
+    served
+}
+
+async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()> {
+    let stop = lifecycle::stop_signal().context("signals cannot be handled")?;
+    check_address(&config.server)?;
+    let data = DataDir::hold(&config.server.data_dir).map_err(GateClosed::because)?;
+    let token = match &arguments.token {
+        Some(token) => token.clone(),
+        None => data.token(fresh_token).map_err(GateClosed::because)?.into(),
+    };
+    if token.expose_secret().len() < 16 {
+        return Err(GateClosed::rule("the token has fewer than 16 characters: give a longer one").into());
+    }
+    let store = SqliteStore::open(&data.database()).await.map_err(GateClosed::because)?;
+    let ports = Ports {
+        store: Arc::new(store),
+        clock: Arc::new(SystemClock::new()),
+        ids: Arc::new(SystemIds),
+        events: Arc::new(LocalEvents::new()),
+    };
+    let app = App::new(ports.clone());
+    let listener = TcpListener::bind(config.server.listen)
+        .await
+        .with_context(|| format!("{} cannot be listened on", config.server.listen))?;
+    let address = listener.local_addr()?;
+    let runner = Runner::start(&ports, &settings(config)).await?;
+    let router = router(&app, &Access::new(token.expose_secret()), config)?;
+    let limits = lifecycle::Limits {
+        request_head: Duration::from_millis(config.limits.request_head_ms),
+        connections: config.limits.connections,
+    };
+    let accepting = tokio::spawn(lifecycle::accept(listener, router, limits, stop.clone()));
+    app.set_ready(true);
+    announce(address, token.expose_secret())?;
+    if arguments.demo {
+        tokio::spawn(demo::fill(app.clone()));
+    }
+    stop.cancelled().await;
+    app.set_ready(false);
+    let (in_time, _) = tokio::join!(runner.shut_down(SHUT_DOWN), accepting);
+    if !in_time {
+        tracing::warn!("some jobs did not reach a checkpoint in time: they go on from the one before");
+    }
+    Ok(())
+}
+
+fn check_address(server: &ServerConfig) -> Result<(), GateClosed> {
+    if server.listen.ip().is_loopback() || server.allow_remote {
+        return Ok(());
+    }
+    Err(GateClosed::rule(format!(
+        "{} can be reached by other machines, and the token would cross the network readable: listen on 127.0.0.1, or \
+         give --allow-remote if the network or a proxy with TLS protects it",
+        server.listen
+    )))
+}
+
+fn fresh_token() -> String {
+    use crate::app::ports::Ids as _;
+    format!("cgda_{}{}", SystemIds.token(), SystemIds.token())
+}
+
+fn settings(config: &Config) -> Settings {
+    let default = Settings::default();
+    Settings {
+        workers: config.jobs.workers.unwrap_or(default.workers),
+        lease: Duration::from_millis(config.jobs.lease_ms),
+        heartbeat: Duration::from_millis(config.jobs.heartbeat_ms),
+        checkpoint: Duration::from_millis(config.jobs.checkpoint_ms),
+        ..default
+    }
+}
+
+fn router(app: &App, access: &Access, config: &Config) -> anyhow::Result<axum::Router> {
+    let limits = &config.limits;
+    let grpc_settings = grpc::Settings {
+        upload_limit_bytes: limits.upload_bytes,
+        message_limit_bytes: limits.body_bytes,
+        reflection: config.server.reflection,
+    };
+    // The router they share has the fallback; two would clash.
+    let grpc = grpc::routes(app.clone(), access.clone(), &grpc_settings)?.into_axum_router().reset_fallback();
+    let http_settings = http::Settings {
+        upload_limit_bytes: limits.upload_bytes,
+        body_limit_bytes: limits.body_bytes,
+        timeout: Duration::from_millis(limits.answer_ms),
+        hosts: config.server.hosts.clone(),
+    };
+    Ok(http::router(app.clone(), access.clone(), http_settings, grpc))
+}
+
+/// The one line on stdout.
+fn announce(address: SocketAddr, token: &str) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "cgda ready http=http://{address} grpc={address} url=http://{address}/?token={token}")?;
+    out.flush()?;
+    Ok(())
+}

@@ -1,0 +1,33 @@
+//! `[jobs]`: how jobs are run.
+
+use super::{ConfigError, within};
+use serde::{Deserialize, Serialize};
+
+/// How jobs are run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct JobsConfig {
+    /// Jobs at a time; one a core when absent.
+    pub workers: Option<usize>,
+    /// After so long without a sign of life a job is taken back.
+    pub lease_ms: u64,
+    /// Time between signs of life, at most a third of the lease.
+    pub heartbeat_ms: u64,
+    /// Time between checkpoints.
+    pub checkpoint_ms: u64,
+}
+
+impl Default for JobsConfig {
+    fn default() -> Self {
+        Self { workers: None, lease_ms: 6000, heartbeat_ms: 2000, checkpoint_ms: 250 }
+    }
+}
+
+impl JobsConfig {
+    pub(super) fn check(&self) -> Result<(), ConfigError> {
+        within("jobs.workers", self.workers.unwrap_or(1), 1..=1024, "1 to 1024")?;
+        within("jobs.lease_ms", self.lease_ms, 500..=3_600_000, "500 to 3600000")?;
+        within("jobs.heartbeat_ms", self.heartbeat_ms, 50..=self.lease_ms / 3, "50 to a third of jobs.lease_ms")?;
+        within("jobs.checkpoint_ms", self.checkpoint_ms, 10..=60_000, "10 to 60000")
+    }
+}

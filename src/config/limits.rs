@@ -1,0 +1,42 @@
+//! `[limits]`: what is refused as too large or too slow.
+
+use super::{ConfigError, within};
+use serde::{Deserialize, Serialize};
+
+/// What is refused as too large or too slow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LimitsConfig {
+    /// Bytes of one upload.
+    pub upload_bytes: usize,
+    /// Bytes of any other body and of a gRPC message.
+    pub body_bytes: usize,
+    /// Time until the head of an answer; not for uploads, streams and gRPC.
+    pub answer_ms: u64,
+    /// Time until the head of a request has arrived.
+    pub request_head_ms: u64,
+    /// Connections at a time.
+    pub connections: usize,
+}
+
+impl Default for LimitsConfig {
+    fn default() -> Self {
+        Self {
+            upload_bytes: 256 << 20,
+            body_bytes: 16 << 20,
+            answer_ms: 90_000,
+            request_head_ms: 10_000,
+            connections: 1024,
+        }
+    }
+}
+
+impl LimitsConfig {
+    pub(super) fn check(&self) -> Result<(), ConfigError> {
+        within("limits.upload_bytes", self.upload_bytes, 1 << 10..=1 << 30, "1024 to 1073741824")?;
+        within("limits.body_bytes", self.body_bytes, 1 << 10..=1 << 30, "1024 to 1073741824")?;
+        within("limits.answer_ms", self.answer_ms, 1000..=3_600_000, "1000 to 3600000")?;
+        within("limits.request_head_ms", self.request_head_ms, 100..=600_000, "100 to 600000")?;
+        within("limits.connections", self.connections, 1..=100_000, "1 to 100000")
+    }
+}
