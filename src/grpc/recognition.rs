@@ -70,7 +70,7 @@ impl Session {
         }
         self.seen.extend(rows("/rows", samples.rows).map_err(status)?);
         let observed = Observed::Rows { features: self.features.clone(), rows: self.seen.clone() };
-        let wanted = question(self.question.clone(), observed).map_err(status)?;
+        let wanted = question(&self.question, observed).map_err(status)?;
         let view = self.app.recognize(wanted).await.map_err(status)?;
         Ok(Some((view.into(), self)))
     }

@@ -119,16 +119,16 @@ mod tests {
     use crate::framework::job::State as JobState;
     use futures_util::stream;
 
-    fn event(seq: u64) -> Result<JobEvent, AppError> {
+    fn event(seq: u64) -> JobEvent {
         let job = JobId::from_uuid(uuid::Uuid::from_u128(1));
         let data = EventData::State { state: JobState::Running, reason: None, attempt: 1 };
-        Ok(JobEvent { seq, job, at: Timestamp(0), data })
+        JobEvent { seq, job, at: Timestamp(0), data }
     }
 
     #[tokio::test]
     async fn events_arrive_in_order_and_an_error_ends_the_stream() {
         let error = AppError::unavailable("gone", "the store is away");
-        let source = stream::iter([event(1), event(2), Err(error), event(3)]).boxed();
+        let source = stream::iter([Ok(event(1)), Ok(event(2)), Err(error), Ok(event(3))]).boxed();
         let response = Sse::new(ReceiverStream::new(pump(source, EVICT_AFTER))).into_response();
         let body = axum::body::to_bytes(response.into_body(), 1 << 16).await.unwrap();
         let text = String::from_utf8(body.to_vec()).unwrap();
@@ -139,7 +139,7 @@ mod tests {
 
     #[tokio::test]
     async fn a_reader_that_takes_nothing_is_evicted() {
-        let receiver = pump(stream::iter((1..).map(event)).boxed(), Duration::from_millis(10));
+        let receiver = pump(stream::iter((1..).map(|seq| Ok(event(seq)))).boxed(), Duration::from_millis(10));
         tokio::time::sleep(Duration::from_millis(200)).await;
         let left = ReceiverStream::new(receiver).count().await;
         assert_eq!(left, QUEUE);

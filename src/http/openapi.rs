@@ -48,6 +48,7 @@ impl Modify for Security {
 }
 
 /// A router that starts with what no route says of itself.
+#[must_use]
 pub fn start<S: Clone + Send + Sync + 'static>() -> OpenApiRouter<S> {
     OpenApiRouter::with_openapi(Document::openapi())
 }
@@ -72,6 +73,7 @@ impl<S: Clone + Send + Sync + 'static> Table<S> for OpenApiRouter<S> {
 }
 
 /// Adds to every operation the answer all of them have in common.
+#[must_use]
 pub fn finish(mut document: OpenApi) -> OpenApi {
     for item in document.paths.paths.values_mut() {
         for operation in operations(item) {

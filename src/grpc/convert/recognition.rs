@@ -17,11 +17,11 @@ pub fn request(request: proto::RecognizeRequest) -> Result<RecognizeRequest, App
             Observed::Rows { features: all(message.features), rows: rows("/observed/rows", message.rows)? }
         }
     };
-    question(request.question.unwrap_or_default(), observed)
+    question(&request.question.unwrap_or_default(), observed)
 }
 
 /// A question about what was observed.
-pub fn question(question: proto::RecognitionQuestion, observed: Observed) -> Result<RecognizeRequest, AppError> {
+pub fn question(question: &proto::RecognitionQuestion, observed: Observed) -> Result<RecognizeRequest, AppError> {
     Ok(RecognizeRequest {
         observed,
         candidates: references("/candidates", &question.candidates)?,
