@@ -1,9 +1,18 @@
 //! Trajectories: checked joint trajectories of runs.
+//!
+//! A trajectory is a function of its run: exports plan it again, which checks it again, and refuse if it came out
+//! otherwise than the one that was shown.
 
 use crate::app::demonstrations::Export;
 use crate::app::id::{JobId, RobotId, RunId, TrajectoryId};
-use crate::app::{App, AppError, Timestamp, unknown_format};
+use crate::app::jobs::Work;
+use crate::app::{App, AppError, ErrorKind, Timestamp, chain_text, compute, unknown_format};
+use crate::framework::execution::Problem;
+use crate::framework::robot::{Chain, RobotModel};
+use crate::framework::trajectory::{CheckedTrajectory, PlanSpec, Tightest, export, plan};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
 /// A time-parameterised joint trajectory that passed its check.
@@ -19,12 +28,18 @@ pub struct TrajectoryView {
     pub robot: RobotId,
     /// Free joints, in the order of `positions`.
     pub joint_names: Vec<String>,
+    /// Joints of the chain that hold one value throughout, rad or m.
+    pub fixed_joints: BTreeMap<String, f64>,
     /// Duration, seconds.
     pub duration_s: f64,
     /// Points; the first at 0 s.
     pub points: Vec<TrajectoryPoint>,
     /// Times at which the goals are reached, seconds.
     pub goal_times_s: Vec<f64>,
+    /// The most used limit of each kind.
+    pub tightest: Vec<Tightest>,
+    /// What was assumed in planning.
+    pub notes: Vec<String>,
     /// SHA-256 of the points' bits, hexadecimal.
     pub sha256: String,
     /// When it was made.
@@ -44,6 +59,27 @@ pub struct TrajectoryPoint {
     pub accelerations: Vec<f64>,
 }
 
+/// From the chain's home pose through `waypoints` (free joints, rad or m), within its limits.
+///
+/// # Errors
+/// Why there is no such trajectory.
+pub fn plan_through(chain: &Chain, waypoints: &[Vec<f64>]) -> Result<CheckedTrajectory, String> {
+    plan(chain, &chain.home(), waypoints, &PlanSpec::default()).map_err(|error| error.to_string())
+}
+
+/// SHA-256 over the points' numbers, little-endian, hexadecimal.
+#[must_use]
+pub fn digest(trajectory: &CheckedTrajectory) -> String {
+    let mut hash = Sha256::new();
+    for point in trajectory.points() {
+        let rows = [&point.positions, &point.velocities, &point.accelerations];
+        for number in std::iter::once(&point.time_s).chain(rows.into_iter().flatten()) {
+            hash.update(number.to_bits().to_le_bytes());
+        }
+    }
+    hex::encode(hash.finalize())
+}
+
 impl App {
     /// One trajectory with its points.
     ///
@@ -53,18 +89,44 @@ impl App {
         Ok(self.ports.store.trajectory(id).await?)
     }
 
-    /// The trajectory as `csv`, `json` or `ros2`.
+    /// The trajectory as `csv`, `json` or `ros2` (YAML of `trajectory_msgs/JointTrajectory`).
     ///
     /// # Errors
-    /// `NotFound`; `Malformed` format.
+    /// `NotFound`; `Malformed` format; `Conflict` when this version plans otherwise than the one that made it.
     pub async fn export_trajectory(&self, id: &TrajectoryId, format: &str) -> Result<Export, AppError> {
-        let trajectory = self.get_trajectory(id).await?;
-        match format {
-            "json" => {
-                let bytes = serde_json::to_vec(&trajectory).map_err(AppError::internal)?;
-                Ok(Export::new("application/json", id.as_str(), "json", bytes))
-            }
-            other => Err(unknown_format(other, "csv, json or ros2")),
+        if !["csv", "json", "ros2"].contains(&format) {
+            return Err(unknown_format(format, "csv, json or ros2"));
         }
+        let view = self.get_trajectory(id).await?;
+        let goals = self.run_goals(&view.run).await?;
+        let Work::Execution(work) = self.ports.store.work(&view.job).await? else {
+            return Err(AppError::internal(format!("{} is no execution but has a trajectory", view.job)));
+        };
+        let waypoints: Vec<Vec<f64>> = goals.goals.into_iter().map(|goal| goal.joints).collect();
+        let trajectory = compute(move || again(&work.problem, &waypoints)).await??;
+        if digest(&trajectory) != view.sha256 {
+            let message = format!("this version plans {id} otherwise than the one that made it: run the job again");
+            return Err(AppError::new(ErrorKind::Conflict, "planned_otherwise", message));
+        }
+        let name = id.as_str();
+        Ok(match format {
+            "csv" => Export::new("text/csv; charset=utf-8", name, "csv", export::csv(&trajectory).into_bytes()),
+            "ros2" => {
+                let text = export::ros2_joint_trajectory(&trajectory);
+                Export::new("application/yaml", name, "yaml", text.into_bytes())
+            }
+            _ => {
+                let text = export::json(&trajectory).map_err(AppError::internal)?;
+                Export::new("application/json", name, "json", text.into_bytes())
+            }
+        })
     }
+}
+
+fn again(problem: &Problem, waypoints: &[Vec<f64>]) -> Result<CheckedTrajectory, AppError> {
+    let model = RobotModel::from_urdf(&problem.urdf).map_err(|error| AppError::internal(chain_text(&error)))?;
+    let chain = Chain::new(&model, &problem.robot).map_err(|error| AppError::internal(chain_text(&error)))?;
+    plan_through(&chain, waypoints).map_err(|why| {
+        AppError::new(ErrorKind::Conflict, "planned_otherwise", format!("no trajectory any more: {why}"))
+    })
 }

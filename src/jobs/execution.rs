@@ -7,7 +7,7 @@
 
 use super::checkpoint::Checkpoint;
 use super::held::{Gone, Held};
-use super::outcome::finished_run;
+use super::outcome::{Marks, finished_run};
 use crate::app::jobs::{EventData, ExecutionWork, GoalProgress, JobProgress, JobView};
 use crate::app::ports::{Advance, NewRun, Transition};
 use crate::evaluate::{Pace, Simulation};
@@ -201,9 +201,9 @@ impl<'a> Attempt<'a> {
     /// Turns the finished repetition into a run and goes to the next one.
     async fn end(&mut self, simulation: Simulation) -> Result<(), Stop> {
         let ports = &self.held.ports;
-        let (ids, now) = ((ports.ids.uuid(), ports.ids.uuid()), ports.clock.now());
+        let marks = Marks { run: ports.ids.uuid(), trajectory: ports.ids.uuid(), created_at: ports.clock.now() };
         let (job, work, repetition) = (self.job.id.clone(), self.work.clone(), self.saved.repetition);
-        let run = blocking(move || finished_run(simulation, &work, job, repetition, ids, now)).await??;
+        let run = blocking(move || finished_run(simulation, &work, &job, repetition, marks)).await??;
         let view = &run.view;
         self.events.push(EventData::Run {
             run: view.id.clone(),

@@ -5,29 +5,41 @@ use crate::app::id::{JobId, RunId, TrajectoryId};
 use crate::app::jobs::ExecutionWork;
 use crate::app::ports::NewRun;
 use crate::app::runs::{ConvergencePoint, RunGoal, RunGoals, RunView};
+use crate::app::trajectories::{TrajectoryPoint, TrajectoryView, digest, plan_through};
 use crate::evaluate::Simulation;
 use crate::framework::execution::{ProblemError, RunResult};
+use crate::framework::trajectory::CheckedTrajectory;
 use uuid::Uuid;
 
-/// What is stored of `simulation`; `ids` name the run and its trajectory.
+/// Ids and time that the results of a repetition are given.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Marks {
+    pub run: Uuid,
+    pub trajectory: Uuid,
+    pub created_at: Timestamp,
+}
+
+/// What is stored of `simulation`.
 ///
 /// # Errors
 /// [`ProblemError::Unfinished`] before the last goal has ended.
 pub(super) fn finished_run(
     simulation: Simulation,
     work: &ExecutionWork,
-    job: JobId,
+    job: &JobId,
     repetition: u32,
-    ids: (Uuid, Uuid),
-    created_at: Timestamp,
+    marks: Marks,
 ) -> Result<NewRun, ProblemError> {
-    let joint_names: Vec<String> = simulation.chain().genes().iter().map(|gene| gene.name.clone()).collect();
+    let chain = simulation.chain().clone();
     let result = simulation.finish()?;
-    let id = RunId::from_uuid(ids.0);
-    let _ = TrajectoryId::from_uuid(ids.1);
+    let id = RunId::from_uuid(marks.run);
+    let (trajectory, trajectory_problem) = match plan_through(&chain, &result.waypoints()) {
+        Ok(planned) => (Some(trajectory(&planned, &id, work, job, marks)), None),
+        Err(why) => (None, Some(why)),
+    };
     let view = RunView {
         id: id.clone(),
-        job,
+        job: job.clone(),
         repetition,
         action: work.action.clone(),
         robot: work.robot.clone(),
@@ -40,17 +52,50 @@ pub(super) fn finished_run(
         painted_percent: result.painted_percent,
         goals: u32::try_from(result.goals.len()).unwrap_or(u32::MAX),
         digest: result.digest.clone(),
-        trajectory: None,
-        trajectory_problem: Some("trajectories are not planned yet".to_owned()),
-        created_at,
+        trajectory: trajectory.as_ref().map(|trajectory| trajectory.id.clone()),
+        trajectory_problem,
+        created_at: marks.created_at,
     };
     let goals = RunGoals {
         run: id,
         features: work.problem.goals.features().to_vec(),
-        joint_names,
+        joint_names: chain.genes().iter().map(|gene| gene.name.clone()).collect(),
         goals: goals(&result, work),
     };
-    Ok(NewRun { view, goals, convergence: convergence(&result), trajectory: None })
+    Ok(NewRun { view, goals, convergence: convergence(&result), trajectory })
+}
+
+fn trajectory(
+    planned: &CheckedTrajectory,
+    run: &RunId,
+    work: &ExecutionWork,
+    job: &JobId,
+    marks: Marks,
+) -> TrajectoryView {
+    let points = planned.points();
+    TrajectoryView {
+        id: TrajectoryId::from_uuid(marks.trajectory),
+        run: run.clone(),
+        job: job.clone(),
+        robot: work.robot.clone(),
+        joint_names: planned.joints().to_vec(),
+        fixed_joints: planned.fixed_joints().clone(),
+        duration_s: planned.duration_s(),
+        goal_times_s: points.iter().filter(|point| point.waypoint.is_some()).map(|point| point.time_s).collect(),
+        tightest: planned.tightest().to_vec(),
+        notes: planned.notes().to_vec(),
+        sha256: digest(planned),
+        points: points
+            .iter()
+            .map(|point| TrajectoryPoint {
+                t_s: point.time_s,
+                positions: point.positions.clone(),
+                velocities: point.velocities.clone(),
+                accelerations: point.accelerations.clone(),
+            })
+            .collect(),
+        created_at: marks.created_at,
+    }
 }
 
 fn goals(result: &RunResult, work: &ExecutionWork) -> Vec<RunGoal> {
