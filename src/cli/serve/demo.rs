@@ -47,7 +47,7 @@ const SCENES: [Scene; 2] = [
         preset: "wax",
         world: "tool position, mm",
         seed: 1,
-        evaluations_per_s: 800.0,
+        evaluations_per_s: 1500.0,
     },
     Scene {
         action: "paint",
@@ -55,7 +55,7 @@ const SCENES: [Scene; 2] = [
         preset: "paint",
         world: "wall of 4 x 4 squares",
         seed: 1,
-        evaluations_per_s: 60.0,
+        evaluations_per_s: 150.0,
     },
 ];
 
