@@ -1,27 +1,34 @@
 // What is drawn around a robot: the tool's trail, goals in space, the wall's cells.
 
 import * as THREE from "three";
+import { Line2 } from "three/examples/jsm/lines/Line2.js";
+import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { token } from "../charts/theme";
 
-/** A line through points of the world, shown up to a share of its length. */
+/** A line through points of the world, drawn strongly up to one of them and faintly beyond. */
 export class Trail {
   readonly object = new THREE.Group();
-  private readonly done: THREE.Line;
-  private readonly count: number;
+  private readonly done: Line2;
+  private readonly segments: number;
 
   constructor(points: readonly THREE.Vector3[]) {
-    this.count = points.length;
-    const material = (opacity: number) =>
-      new THREE.LineBasicMaterial({ color: token("trail"), transparent: opacity < 1, opacity });
-    const ahead = new THREE.Line(new THREE.BufferGeometry().setFromPoints([...points]), material(0.3));
-    this.done = new THREE.Line(new THREE.BufferGeometry().setFromPoints([...points]), material(1));
-    this.object.add(ahead, this.done);
+    this.segments = Math.max(0, points.length - 1);
+    this.done = thickLine(points, 3.5, 1);
+    if (this.segments > 0) this.object.add(thickLine(points, 2, 0.35), this.done);
   }
 
   /** Draws strongly what lies before point number `index`. */
   showUpTo(index: number): void {
-    this.done.geometry.setDrawRange(0, Math.max(0, Math.min(this.count, index + 1)));
+    this.done.geometry.instanceCount = Math.max(0, Math.min(this.segments, index));
   }
+}
+
+/** A line of a width in pixels. */
+function thickLine(points: readonly THREE.Vector3[], width: number, opacity: number): Line2 {
+  const geometry = new LineGeometry();
+  geometry.setPositions(points.flatMap((point) => point.toArray()));
+  return new Line2(geometry, new LineMaterial({ color: token("trail"), linewidth: width, transparent: opacity < 1, opacity }));
 }
 
 /** Goals in space, each a small sphere, with a thin line in their order. */

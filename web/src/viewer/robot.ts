@@ -71,7 +71,7 @@ export class RobotFigure {
     const joint = new THREE.MeshStandardMaterial({ color: token("robot-joint"), roughness: 0.6, metalness: 0.1 });
     for (const link of Object.values(this.object.links)) {
       const shapes = shapesOf(link);
-      for (const shape of shapes) shape.material = body;
+      for (const shape of shapes) if (!hasOwnColor(shape)) shape.material = body;
       if (shapes.length === 0) this.addBones(link, body, joint);
     }
     if (this.tool.lengthSq() > 1e-6) this.tip.add(bone(this.tool, body));
@@ -91,6 +91,12 @@ export class RobotFigure {
       }
     }
   }
+}
+
+/** Whether the URDF gave the shape a material; the loader leaves the others white. */
+function hasOwnColor(shape: THREE.Mesh): boolean {
+  const material = [shape.material].flat()[0];
+  return material instanceof THREE.MeshPhongMaterial && material.color.getHex() !== 0xffffff;
 }
 
 function shapesOf(link: URDFLink): THREE.Mesh[] {

@@ -22,6 +22,7 @@ export class Stage {
   private readonly observer: ResizeObserver;
   private readonly host: HTMLElement;
   private frame = 0;
+  private floorHeight = 0;
 
   /** Throws when the browser has no WebGL. */
   constructor(host: HTMLElement) {
@@ -59,6 +60,7 @@ export class Stage {
     const floor = new THREE.GridHelper(4, 16, token("border-strong"), token("border"));
     floor.name = "floor";
     floor.rotateX(Math.PI / 2);
+    floor.position.z = this.floorHeight;
     this.scene.add(floor);
     this.draw();
   }
@@ -67,11 +69,12 @@ export class Stage {
   fit(view: View): void {
     const box = new THREE.Box3().setFromObject(this.root);
     if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, 0), new THREE.Vector3(0.5, 0.5, 1));
+    this.setFloor(box.min.z);
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const narrow = Math.min(1, this.camera.aspect);
     const distance = sphere.radius / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2)) / narrow;
     const direction = new THREE.Vector3(...DIRECTIONS[view]).normalize();
-    this.camera.position.copy(sphere.center).addScaledVector(direction, distance * 1.02);
+    this.camera.position.copy(sphere.center).addScaledVector(direction, distance * 0.92);
     this.controls.target.copy(sphere.center);
     this.controls.update();
     this.draw();
@@ -94,6 +97,13 @@ export class Stage {
     disposeAll(this.scene);
     this.renderer.dispose();
     this.renderer.domElement.remove();
+  }
+
+  /** Below everything that stands there. */
+  private setFloor(height: number): void {
+    this.floorHeight = height - 0.002;
+    const floor = this.scene.getObjectByName("floor");
+    if (floor !== undefined) floor.position.z = this.floorHeight;
   }
 
   private resize(): void {

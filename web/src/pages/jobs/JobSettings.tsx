@@ -1,5 +1,6 @@
-import { Link } from "react-router";
 import type { ReactNode } from "react";
+import { Link } from "react-router";
+import { useAction, useRobot, useWorld } from "../../api/queries";
 import type { CreateJob, Job } from "../../api/types";
 import { formatDateTime, formatNumber, humanize } from "../../lib/format";
 import { Card, Facts, type Fact } from "../../ui/basics";
@@ -37,8 +38,9 @@ function requestFacts(request: CreateJob): Fact[] {
   const { execution, seed, repetitions = 1 } = request;
   const method = execution.method;
   const given: [string, ReactNode][] = [
-    ["Action", <Link key="a" to={`/actions/${request.action}`}>open</Link>],
-    ["Robot", <Link key="r" to={`/robots/${request.robot}`}>open</Link>],
+    ["Action", <ActionLink key="action" id={request.action} />],
+    ["Robot", <RobotLink key="robot" id={request.robot} />],
+    ["World", <WorldName key="world" id={request.world} />],
     ["Method", `${method.name.toUpperCase()}, P ${method.population ?? 50}, S ${method.stagnation ?? 3}`],
     ["Metric", humanize(execution.metric)],
     ["Tolerance", execution.tolerance],
@@ -49,4 +51,18 @@ function requestFacts(request: CreateJob): Fact[] {
     ["Repetitions", repetitions],
   ];
   return given.flatMap(([name, value]) => (value == null ? [] : [{ name, value }]));
+}
+
+function ActionLink({ id }: { id: string }) {
+  const action = useAction(id).data;
+  return <Link to={`/actions/${id}`}>{action === undefined ? "open" : `${action.name}, version ${action.version}`}</Link>;
+}
+
+function RobotLink({ id }: { id: string }) {
+  const robot = useRobot(id).data;
+  return <Link to={`/robots/${id}`}>{robot === undefined ? "open" : `${robot.name}, version ${robot.version}`}</Link>;
+}
+
+function WorldName({ id }: { id: string }) {
+  return <>{useWorld(id).data?.name ?? "–"}</>;
 }

@@ -13,7 +13,6 @@ export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) 
               <th key={feature.name} scope="col" className="numeric">
                 {feature.name}
                 {feature.unit && `, ${feature.unit}`}
-                <span className="muted"> asked → reached</span>
               </th>
             ))}
             <th scope="col" className="numeric">Discrepancy</th>

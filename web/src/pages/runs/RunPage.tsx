@@ -32,14 +32,12 @@ export function RunPage() {
             ) : (
               <Loaded query={goals}>{(reached) => <Replay run={data} goals={reached} />}</Loaded>
             )}
-            <div className="columns">
-              <Card title="Discrepancy">
-                <ConvergenceChart run={data} goals={goals.data} />
-              </Card>
-              <Card title="Goals" flush>
-                <Loaded query={goals}>{(reached) => <GoalsTable goals={reached} />}</Loaded>
-              </Card>
-            </div>
+            <Card title="Discrepancy">
+              <ConvergenceChart run={data} goals={goals.data} />
+            </Card>
+            <Card title="Goals" flush aside={<span className="muted small">asked for → reached</span>}>
+              <Loaded query={goals}>{(reached) => <GoalsTable goals={reached} />}</Loaded>
+            </Card>
           </div>
         </>
       )}
