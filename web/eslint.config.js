@@ -1,6 +1,7 @@
 import js from "@eslint/js";
 import a11y from "eslint-plugin-jsx-a11y";
 import hooks from "eslint-plugin-react-hooks";
+import globals from "globals";
 import tseslint from "typescript-eslint";
 
 export default tseslint.config(
@@ -23,6 +24,6 @@ export default tseslint.config(
   {
     files: ["**/*.mjs", "eslint.config.js"],
     extends: [js.configs.recommended],
-    languageOptions: { globals: { console: "readonly", process: "readonly", URL: "readonly", fetch: "readonly", setTimeout: "readonly", clearTimeout: "readonly", document: "readonly", window: "readonly", Buffer: "readonly" } },
+    languageOptions: { globals: { ...globals.node, ...globals.browser } },
   },
 );

@@ -62,7 +62,7 @@ export function useUpload() {
       const form = new FormData();
       form.set("name", name);
       if (units.trim() !== "") form.set("units", units);
-      if (alignStart) form.set("clock_policy", "align_start");
+      if (alignStart) form.set("clock_policy", "align_by_start");
       for (const file of files) form.append("files", file, file.name);
       // The document describes the form's fields; a browser sends a FormData.
       return body(api.POST("/api/v1/demonstrations", { body: form as never, bodySerializer: () => form }));

@@ -10,6 +10,7 @@ export type Demonstration = Schemas["DemonstrationView"];
 export type ExecutionSpec = Schemas["ExecutionSpec"];
 export type Feature = Schemas["Feature"];
 export type FieldError = Schemas["FieldError"];
+export type Finding = Schemas["Finding"];
 export type GoalProgress = Schemas["GoalProgress"];
 export type Job = Schemas["JobView"];
 export type JobEvent = Schemas["JobEvent"];

@@ -23,6 +23,8 @@ export interface ViewerProps {
   /** Poses at which the tool works on the wall, and how many of them are behind. */
   strokes?: readonly Readonly<Record<string, number>>[];
   strokesDone?: number;
+  /** Told the number of cells that are painted. */
+  onPainted?: (cells: number) => void;
   /** What is seen, for those who cannot see it. */
   summary: string;
 }
@@ -43,7 +45,7 @@ const VIEWS: { view: View; label: string }[] = [
 ];
 
 export default function RobotViewer(props: ViewerProps) {
-  const { urdf, mounting, joints, path, pathIndex, goals, wall, strokes, strokesDone, summary } = props;
+  const { urdf, mounting, joints, path, pathIndex, goals, wall, strokes, strokesDone, onPainted, summary } = props;
   const host = useRef<HTMLDivElement>(null);
   const built = useRef<Built | null>(null);
   const view = useRef<View>("perspective");
@@ -79,10 +81,12 @@ export default function RobotViewer(props: ViewerProps) {
     if (now === null) return;
     now.figure.pose(joints);
     now.trail?.showUpTo(pathIndex ?? Infinity);
-    now.wall?.paint(paintedUpTo(now.painters, strokesDone ?? Infinity));
+    const painted = paintedUpTo(now.painters, strokesDone ?? Infinity);
+    now.wall?.paint(painted);
+    onPainted?.(painted.size);
     now.stage.describe(summary);
     now.stage.draw();
-  }, [joints, pathIndex, strokesDone, summary, urdf, mounting, path, goals, wall, strokes, dark]);
+  }, [joints, pathIndex, strokesDone, onPainted, summary, urdf, mounting, path, goals, wall, strokes, dark]);
 
   const look = (to: View) => {
     view.current = to;

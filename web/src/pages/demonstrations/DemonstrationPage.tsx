@@ -4,8 +4,8 @@ import { useState, type SyntheticEvent } from "react";
 import { useParams } from "react-router";
 import { usePatchDemonstration } from "../../api/mutations";
 import { useDemonstration, useReport, useSamples } from "../../api/queries";
-import type { Demonstration } from "../../api/types";
-import { formatCount, formatDateTime, formatDuration, humanize } from "../../lib/format";
+import type { Demonstration, Finding } from "../../api/types";
+import { formatCount, formatDateTime, formatDuration, formatNumber, humanize } from "../../lib/format";
 import { Badge, Card, Facts, PageHead } from "../../ui/basics";
 import { Loaded, Problem } from "../../ui/feedback";
 import { StreamCharts } from "./StreamCharts";
@@ -56,9 +56,12 @@ function Findings({ demonstration }: { demonstration: Demonstration }) {
           ) : (
             <ul className="stack" style={{ listStyle: "none", padding: 0 }}>
               {findings.map((finding, index) => (
-                <li key={index} className="notice tone-warn">
-                  <strong>{humanize(finding.code)}</strong> <code className="muted">{finding.pointer}</code>
-                  <p>{finding.detail}</p>
+                <li key={index} className={`notice ${finding.severity === "error" ? "tone-bad" : "tone-warn"}`}>
+                  <strong>{humanize(finding.code)}</strong> <span className="muted small">{placeOf(finding)}</span>
+                  <p>{finding.message}</p>
+                  <p>
+                    <b>Remedy:</b> {finding.remedy}
+                  </p>
                 </li>
               ))}
             </ul>
@@ -67,6 +70,17 @@ function Findings({ demonstration }: { demonstration: Demonstration }) {
       </Loaded>
     </Card>
   );
+}
+
+/** Stream, row, column and time, as far as the finding has them. */
+function placeOf({ stream, row, column, time_s: timeS }: Finding): string {
+  const parts = [
+    stream,
+    row == null ? null : `row ${row}`,
+    column == null ? null : `column ${column}`,
+    timeS == null ? null : `at ${formatNumber(timeS)} s`,
+  ];
+  return parts.filter((part) => part != null).join(", ");
 }
 
 /** Leaves the demonstration out of new actions, with a reason, or takes it in again. */

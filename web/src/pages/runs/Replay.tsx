@@ -1,6 +1,6 @@
 // The trajectory in 3-D: the robot from its URDF, the tool's trail beside the goals, the wall's cells as they are painted.
 
-import { useMemo } from "react";
+import { useMemo, useState } from "react";
 import { useRobot, useRunTrajectory, useUrdf, useWorld } from "../../api/queries";
 import type { Robot, Run, RunGoals, Trajectory, World } from "../../api/types";
 import type { WallGrid } from "../../lib/coverage";
@@ -47,6 +47,7 @@ interface SceneProps {
 
 function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
   const play = usePlayback(trajectory.duration_s);
+  const [cells, setCells] = useState(0);
   const mounting = useMemo(() => mountingOf(robot), [robot]);
   const { points, joint_names: names } = trajectory;
 
@@ -74,13 +75,14 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
         path={path}
         pathIndex={indexAt(shown, play.timeS)}
         {...(targets === undefined ? {} : { goals: targets })}
-        {...(wall === undefined ? {} : { wall, strokes, strokesDone: reached })}
+        {...(wall === undefined ? {} : { wall, strokes, strokesDone: reached, onPainted: setCells })}
         summary={`Robot ${robot.name} at ${formatNumber(play.timeS, 3)} seconds, ${reached} of ${goals.goals.length} goals reached`}
       />
       <Player play={play} durationS={trajectory.duration_s} marks={trajectory.goal_times_s} />
       <p className="row between small" style={{ marginTop: 8 }}>
         <span>
           Goal {reached} of {goals.goals.length}
+          {wall !== undefined && ` · ${cells} of ${wall.columns * wall.rows} cells painted`}
         </span>
         {last !== undefined && (
           <span className="muted">

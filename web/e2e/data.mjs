@@ -1,0 +1,98 @@
+// Fills a server over its interface: two actions from recorded-like demonstrations, a robot, two worlds, jobs.
+import { readFileSync } from "node:fs";
+
+const EXAMPLES = new URL("../../examples/", import.meta.url);
+
+/** A circle drawn by the tool in front of the right arm, mm; all of it within reach. */
+function circleCsv(phase) {
+  const rows = ["time_s,x [mm],y [mm],z [mm]"];
+  for (let step = 0; step <= 160; step += 1) {
+    const angle = (2 * Math.PI * step) / 160;
+    const wobble = 4 * Math.sin(3 * angle + phase);
+    const position = [430 + wobble, -420 + 110 * Math.sin(angle), 520 + 110 * Math.cos(angle)];
+    rows.push([step * 0.1, ...position].map((value) => value.toFixed(4)).join(","));
+  }
+  return rows.join("\n");
+}
+
+/** A wall painted evenly, %. */
+function paintCsv(pace) {
+  const rows = ["time_s,painted [%]"];
+  for (let step = 0; step <= 120; step += 1) rows.push(`${(step * pace).toFixed(3)},${((100 * step) / 120).toFixed(4)}`);
+  return rows.join("\n");
+}
+
+export async function waitForJob(server, id, done = (job) => ["SUCCEEDED", "FAILED", "CANCELLED"].includes(job.state)) {
+  for (let tries = 0; tries < 600; tries += 1) {
+    const job = await server.api("GET", `/jobs/${id}`);
+    if (done(job)) return job;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  throw new Error(`job ${id} did not come to rest within 60 s`);
+}
+
+async function upload(server, name, text) {
+  const form = new FormData();
+  form.set("name", name);
+  form.append("files", new Blob([text]), `${name}.csv`);
+  return (await server.api("POST", "/demonstrations", form)).id;
+}
+
+async function generalize(server, name, demonstrations, tMinS) {
+  const job = await server.api("POST", "/jobs", { kind: "generalization", name, demonstrations, t_min_s: tMinS });
+  const ended = await waitForJob(server, job.id);
+  if (ended.state !== "SUCCEEDED") throw new Error(`generalization failed: ${JSON.stringify(ended.failure)}`);
+  return ended.result.action;
+}
+
+const WALL = {
+  kind: "coverage",
+  origin_m: [0.6, -0.8, 0.32],
+  column_step_m: [0, 0.2, 0],
+  row_step_m: [0, 0, 0.2],
+  columns: 4,
+  rows: 4,
+  radius_m: 0.13,
+};
+
+export const sst = (population, stagnation) => ({ name: "sst", population, stagnation });
+
+/** Everything the pages are looked at with; ids by meaning. */
+export async function fill(server) {
+  const circles = [await upload(server, "circle-1", circleCsv(0)), await upload(server, "circle-2", circleCsv(1.3))];
+  const paints = [await upload(server, "paint-1", paintCsv(0.2)), await upload(server, "paint-2", paintCsv(0.22))];
+  const circle = await generalize(server, "circle", circles, 1.6);
+  const paint = await generalize(server, "paint", paints, 1.5);
+
+  const urdf = readFileSync(new URL("robots/teo_right_arm.urdf", EXAMPLES), "utf8");
+  const fixed = { shoulder_yaw: 0, wrist_yaw: -Math.PI / 4, wrist_pitch: 0 };
+  const acceleration = { shoulder_pitch: 2, shoulder_roll: 2, elbow_pitch: 2 };
+  const robot = (await server.api("POST", "/robots", { name: "teo right arm", urdf, spec: { fixed, acceleration } })).id;
+  const space = (await server.api("POST", "/worlds", { name: "tool position", spec: { kind: "tool_position", unit: "mm" } })).id;
+  const wall = (await server.api("POST", "/worlds", { name: "wall of 4 x 4", spec: WALL })).id;
+
+  const execution = (change) => ({ kind: "execution", action: circle, robot, world: space, seed: 1, ...change });
+  const circleJob = await server.api("POST", "/jobs", execution({ execution: { method: sst(50, 3) } }));
+  const paintJob = await server.api("POST", "/jobs", {
+    ...execution({ action: paint, world: wall, repetitions: 3 }),
+    execution: { method: sst(10, 10), target_discrepancy: 0 },
+  });
+  const done = [await waitForJob(server, circleJob.id), await waitForJob(server, paintJob.id)];
+  for (const job of done) if (job.state !== "SUCCEEDED") throw new Error(`${job.name}: ${JSON.stringify(job.failure)}`);
+  return {
+    circle,
+    paint,
+    robot,
+    space,
+    wall,
+    demonstration: circles[0],
+    circleJob: done[0],
+    paintJob: done[1],
+    execution,
+  };
+}
+
+/** A job slow enough to be watched. */
+export function startSlowJob(server, data, perSecond = 150) {
+  return server.api("POST", "/jobs", data.execution({ execution: { method: sst(50, 3) }, max_evaluations_per_s: perSecond, name: "slow circle" }));
+}
