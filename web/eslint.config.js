@@ -14,6 +14,8 @@ export default tseslint.config(
     rules: {
       ...hooks.configs.recommended.rules,
       ...a11y.flatConfigs.recommended.rules,
+      // A region that scrolls must be reachable by keyboard.
+      "jsx-a11y/no-noninteractive-tabindex": ["error", { roles: ["region"] }],
       "max-lines": ["error", 500],
       // Numbers in template strings are what this dashboard writes.
       "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],

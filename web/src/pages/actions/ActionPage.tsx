@@ -73,7 +73,7 @@ function Goals({ action }: { action: Action }) {
             ))}
           </div>
           <Card title="Goals" flush>
-            <div className="table-scroll">
+            <div className="table-scroll" role="region" aria-label="Goals" tabIndex={0}>
               <table className="compact">
                 <thead>
                   <tr>

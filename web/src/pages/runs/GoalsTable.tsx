@@ -4,7 +4,7 @@ import { formatCount, formatNumber, humanize } from "../../lib/format";
 /** What was asked for and what was observed, goal by goal. */
 export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) {
   return (
-    <div className="table-scroll">
+    <div className="table-scroll" role="region" aria-label="Goals, asked for and reached" tabIndex={0}>
       <table className="compact">
         <thead>
           <tr>
