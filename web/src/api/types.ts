@@ -22,5 +22,6 @@ export type Run = Schemas["RunView"];
 export type RunGoals = Schemas["RunGoals"];
 export type Series = Schemas["Series"];
 export type Trajectory = Schemas["TrajectoryView"];
+export type Weighting = Schemas["Weighting"];
 export type World = Schemas["WorldView"];
 export type WorldSpec = Schemas["WorldSpec"];

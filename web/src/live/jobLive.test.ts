@@ -19,6 +19,7 @@ const progress = (change: Partial<JobProgress>): JobProgress => ({
   goal_index: 0,
   goals: 9,
   evaluations: 50,
+  goal_evaluations: 50,
   total_evaluations: 50,
   discrepancy: 12,
   finished_goals: [],

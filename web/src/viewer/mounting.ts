@@ -3,12 +3,12 @@ import type { Mounting } from "./robot";
 
 /** The part of a robot's description the figure needs. */
 export function mountingOf(robot: Robot): Mounting {
-  const { spec, summary } = robot;
+  const { spec, chain } = robot;
   const [x = 0, y = 0, z = 0] = spec.tool_offset_m ?? [];
   return {
-    baseLink: summary.base_link,
-    tipLink: summary.tip_link,
+    baseLink: chain.base_link,
+    tipLink: chain.tip_link,
     toolOffset: [x, y, z],
-    fixed: spec.fixed ?? {},
+    fixed: chain.fixed_joints,
   };
 }

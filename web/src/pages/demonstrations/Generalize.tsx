@@ -1,7 +1,7 @@
 import { useId, useState, type SyntheticEvent } from "react";
 import { useNavigate } from "react-router";
 import { useCreateJob } from "../../api/mutations";
-import type { Demonstration } from "../../api/types";
+import type { Demonstration, Weighting } from "../../api/types";
 import { formatDuration } from "../../lib/format";
 import { Card } from "../../ui/basics";
 import { Problem } from "../../ui/feedback";
@@ -13,7 +13,7 @@ export function Generalize({ demonstrations }: { demonstrations: Demonstration[]
   const create = useCreateJob();
   const [name, setName] = useState("");
   const [tMin, setTMin] = useState("1");
-  const [weighting, setWeighting] = useState("per_demonstration");
+  const [weighting, setWeighting] = useState<Weighting>("per_demonstration");
 
   const meanS = demonstrations.reduce((sum, each) => sum + each.duration_s, 0) / Math.max(1, demonstrations.length);
   const tMinS = Number(tMin);
@@ -53,7 +53,7 @@ export function Generalize({ demonstrations }: { demonstrations: Demonstration[]
           </div>
           <div className="field">
             <label htmlFor={`${ids}weighting`}>Weighting</label>
-            <select id={`${ids}weighting`} value={weighting} onChange={(event) => setWeighting(event.currentTarget.value)}>
+            <select id={`${ids}weighting`} value={weighting} onChange={(event) => setWeighting(event.currentTarget.value as Weighting)}>
               <option value="per_demonstration">per demonstration</option>
               <option value="per_sample">per sample</option>
             </select>

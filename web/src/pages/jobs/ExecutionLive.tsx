@@ -21,10 +21,9 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
   const progress = newest(job.progress, live.progress);
   const sameRun = live.goals.length >= progress.finished_goals.length;
   const goals = sameRun && live.goals.length > 0 ? live.goals : progress.finished_goals;
-  const spent = goals.reduce((sum, goal) => sum + goal.evaluations, 0);
   const searching = !isFinal(state) && goals.length < progress.goals;
   const active = searching
-    ? { index: progress.goal_index, evaluations: Math.max(0, progress.evaluations - spent), discrepancy: progress.discrepancy ?? null }
+    ? { index: progress.goal_index, evaluations: progress.goal_evaluations, discrepancy: progress.discrepancy ?? null }
     : null;
   const cumulative = goals.map((_, index) => goals.slice(0, index + 1).reduce((sum, goal) => sum + goal.evaluations, 0));
   return (

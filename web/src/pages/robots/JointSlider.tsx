@@ -1,12 +1,10 @@
 import { useId } from "react";
-import type { Robot } from "../../api/types";
 import { formatNumber } from "../../lib/format";
 import { Badge } from "../../ui/basics";
-
-type Joint = Robot["summary"]["joints"][number];
+import type { MovableJoint } from "./joints";
 
 interface Props {
-  joint: Joint;
+  joint: MovableJoint;
   value: number;
   onChange: (value: number) => void;
 }

@@ -9,6 +9,7 @@ import { Card, Facts, PageHead } from "../../ui/basics";
 import { Loaded } from "../../ui/feedback";
 import { mountingOf } from "../../viewer/mounting";
 import { Viewer } from "../../viewer/Viewer";
+import { movableJoints } from "./joints";
 import { JointSlider } from "./JointSlider";
 
 export function RobotPage() {
@@ -33,8 +34,9 @@ export function RobotPage() {
 
 function Figure({ robot, urdf }: { robot: Robot; urdf: string }) {
   const mounting = useMemo(() => mountingOf(robot), [robot]);
-  const [joints, setJoints] = useState<Record<string, number>>(() => ({ ...mounting.fixed }));
-  const { summary } = robot;
+  const [joints, setJoints] = useState(() => atRest(robot));
+  const { chain, summary } = robot;
+  const movable = useMemo(() => movableJoints(robot), [robot]);
   return (
     <div className="columns wide-first">
       <Card title="Figure">
@@ -49,7 +51,7 @@ function Figure({ robot, urdf }: { robot: Robot; urdf: string }) {
             </button>
           }
         >
-          {summary.joints.map((joint) => (
+          {movable.map((joint) => (
             <JointSlider
               key={joint.name}
               joint={joint}
@@ -61,9 +63,9 @@ function Figure({ robot, urdf }: { robot: Robot; urdf: string }) {
         <Card title="Chain">
           <Facts
             facts={[
-              { name: "From", value: summary.base_link },
-              { name: "To", value: summary.tip_link },
-              { name: "Links of the robot", value: summary.links },
+              { name: "From", value: chain.base_link },
+              { name: "To", value: chain.tip_link },
+              { name: "Links of the robot", value: summary.links.length },
               { name: "Tool offset", value: `${(robot.spec.tool_offset_m ?? [0, 0, 0]).map((each) => formatNumber(each)).join(", ")} m` },
               { name: "Added", value: formatDateTime(Date.parse(robot.created_at)) },
               { name: "SHA-256 of the URDF", value: <code>{robot.urdf_sha256.slice(0, 16)}…</code> },
@@ -76,6 +78,6 @@ function Figure({ robot, urdf }: { robot: Robot; urdf: string }) {
 }
 
 function atRest(robot: Robot): Record<string, number> {
-  const zeros = robot.summary.joints.map((joint) => [joint.name, 0] as const);
-  return { ...Object.fromEntries(zeros), ...robot.spec.fixed };
+  const zeros = movableJoints(robot).map((joint) => [joint.name, 0] as const);
+  return { ...Object.fromEntries(zeros), ...robot.chain.fixed_joints };
 }

@@ -5,6 +5,7 @@ import { formatDateTime, formatNumber, humanize } from "../../lib/format";
 import { Card, Empty, PageHead } from "../../ui/basics";
 import { Loaded } from "../../ui/feedback";
 import { More } from "../../ui/More";
+import { movableJoints } from "./joints";
 import { NewRobot } from "./NewRobot";
 
 export function RobotsPage() {
@@ -63,10 +64,10 @@ function RobotTable({ robots }: { robots: Robot[] }) {
             </td>
             <td data-label="Version" className="numeric">{robot.version}</td>
             <td data-label="Chain">
-              {robot.summary.base_link} → {robot.summary.tip_link}
+              {robot.chain.base_link} → {robot.chain.tip_link}
             </td>
             <td data-label="Free joints" className="numeric">
-              {robot.summary.joints.filter((joint) => joint.free).length} of {robot.summary.joints.length}
+              {robot.chain.free_joints.length} of {movableJoints(robot).length}
             </td>
             <td data-label="Added" className="nowrap">{formatDateTime(Date.parse(robot.created_at))}</td>
           </tr>
