@@ -1,0 +1,138 @@
+//! The clients: reqwest over HTTP, tonic over gRPC, both with the server's token.
+
+use super::server::Server;
+use cgda::grpc::proto::action_service_client::ActionServiceClient;
+use cgda::grpc::proto::demonstration_service_client::DemonstrationServiceClient;
+use cgda::grpc::proto::job_service_client::JobServiceClient;
+use cgda::grpc::proto::recognition_service_client::RecognitionServiceClient;
+use cgda::grpc::proto::robot_service_client::RobotServiceClient;
+use cgda::grpc::proto::run_service_client::RunServiceClient;
+use cgda::grpc::proto::trajectory_service_client::TrajectoryServiceClient;
+use cgda::grpc::proto::world_service_client::WorldServiceClient;
+use reqwest::{Method, RequestBuilder};
+use serde_json::Value;
+use tonic::Status;
+use tonic::metadata::{Ascii, MetadataValue};
+use tonic::service::Interceptor;
+use tonic::service::interceptor::InterceptedService;
+use tonic::transport::{Channel, Endpoint};
+
+/// Over HTTP.
+pub struct Http {
+    client: reqwest::Client,
+    address: String,
+    token: String,
+}
+
+/// Status, content type and JSON body (null when it is none).
+#[derive(Debug)]
+pub struct Answer {
+    pub status: u16,
+    pub headers: reqwest::header::HeaderMap,
+    pub text: String,
+    pub json: Value,
+}
+
+impl Answer {
+    /// A text field.
+    pub fn text(&self, pointer: &str) -> &str {
+        self.json.pointer(pointer).and_then(Value::as_str).unwrap_or_else(|| panic!("no {pointer} in {}", self.text))
+    }
+
+    /// The answer if it has that status.
+    pub fn expect(self, status: u16) -> Self {
+        assert_eq!(self.status, status, "{}", self.text);
+        self
+    }
+
+    /// The answer if it is a problem of that status and code.
+    pub fn expect_problem(self, status: u16, code: &str) -> Self {
+        assert_eq!((self.status, self.json["code"].as_str()), (status, Some(code)), "{}", self.text);
+        assert_eq!(self.headers["content-type"], "application/problem+json");
+        assert_eq!(self.json["status"], status);
+        assert_eq!(self.json["request_id"].as_str().unwrap(), self.headers["x-request-id"]);
+        self
+    }
+}
+
+impl Http {
+    pub fn new(server: &Server) -> Self {
+        let client = reqwest::Client::builder().redirect(reqwest::redirect::Policy::none()).build().unwrap();
+        Self { client, address: server.address.clone(), token: server.token.clone() }
+    }
+
+    /// A request without credentials to a path from the root.
+    pub fn bare(&self, method: Method, path: &str) -> RequestBuilder {
+        self.client.request(method, format!("http://{}{path}", self.address))
+    }
+
+    /// A request with the token to a path of the API.
+    pub fn request(&self, method: Method, path: &str) -> RequestBuilder {
+        self.bare(method, &format!("/api/v1{path}")).bearer_auth(&self.token)
+    }
+
+    pub async fn get(&self, path: &str) -> Answer {
+        send(self.request(Method::GET, path)).await
+    }
+
+    pub async fn post(&self, path: &str, body: &Value) -> Answer {
+        send(self.request(Method::POST, path).json(body)).await
+    }
+}
+
+/// Sends it and reads the whole answer.
+pub async fn send(request: RequestBuilder) -> Answer {
+    let response = request.send().await.unwrap();
+    let (status, headers) = (response.status().as_u16(), response.headers().clone());
+    let text = response.text().await.unwrap();
+    let json = serde_json::from_str(&text).unwrap_or_default();
+    Answer { status, headers, text, json }
+}
+
+/// Puts the token into the metadata.
+#[derive(Clone)]
+pub struct Token(MetadataValue<Ascii>);
+
+impl Interceptor for Token {
+    fn call(&mut self, mut request: tonic::Request<()>) -> Result<tonic::Request<()>, Status> {
+        request.metadata_mut().insert("authorization", self.0.clone());
+        Ok(request)
+    }
+}
+
+type Guarded = InterceptedService<Channel, Token>;
+
+/// Over gRPC.
+pub struct Grpc {
+    pub demonstrations: DemonstrationServiceClient<Guarded>,
+    pub actions: ActionServiceClient<Guarded>,
+    pub recognition: RecognitionServiceClient<Guarded>,
+    pub robots: RobotServiceClient<Guarded>,
+    pub worlds: WorldServiceClient<Guarded>,
+    pub jobs: JobServiceClient<Guarded>,
+    pub runs: RunServiceClient<Guarded>,
+    pub trajectories: TrajectoryServiceClient<Guarded>,
+}
+
+impl Grpc {
+    pub async fn new(server: &Server) -> Self {
+        Self::with_token(server, &server.token).await
+    }
+
+    pub async fn with_token(server: &Server, token: &str) -> Self {
+        let endpoint = Endpoint::from_shared(format!("http://{}", server.address)).unwrap();
+        let channel = endpoint.connect().await.unwrap();
+        let token = Token(format!("Bearer {token}").parse().unwrap());
+        let guarded = InterceptedService::new(channel, token);
+        Self {
+            demonstrations: DemonstrationServiceClient::new(guarded.clone()),
+            actions: ActionServiceClient::new(guarded.clone()),
+            recognition: RecognitionServiceClient::new(guarded.clone()),
+            robots: RobotServiceClient::new(guarded.clone()),
+            worlds: WorldServiceClient::new(guarded.clone()),
+            jobs: JobServiceClient::new(guarded.clone()),
+            runs: RunServiceClient::new(guarded.clone()),
+            trajectories: TrajectoryServiceClient::new(guarded),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Errors: every one a problem with a stable code, its place, and the same meaning over both protocols.
+
+use super::clients::{Grpc, Http, send};
+use super::server::Server;
+use super::work::{upload, world};
+use cgda::app::ErrorKind;
+use cgda::grpc::proto;
+use reqwest::Method;
+use serde_json::json;
+use tonic::Code;
+use tonic_types::StatusExt as _;
+
+#[test]
+fn every_kind_of_error_means_the_same_over_both_protocols() {
+    let table = [
+        (ErrorKind::Malformed, 400, Code::InvalidArgument),
+        (ErrorKind::Invalid, 422, Code::InvalidArgument),
+        (ErrorKind::NotFound, 404, Code::NotFound),
+        (ErrorKind::Conflict, 409, Code::FailedPrecondition),
+        (ErrorKind::Precondition, 412, Code::Aborted),
+        (ErrorKind::TooLarge, 413, Code::ResourceExhausted),
+        (ErrorKind::Unauthenticated, 401, Code::Unauthenticated),
+        (ErrorKind::Forbidden, 403, Code::PermissionDenied),
+        (ErrorKind::Exhausted, 429, Code::ResourceExhausted),
+        (ErrorKind::Unavailable, 503, Code::Unavailable),
+        (ErrorKind::Internal, 500, Code::Internal),
+    ];
+    for kind in ErrorKind::ALL {
+        let row = table.iter().find(|row| row.0 == kind);
+        let found = (kind, cgda::http::error::status(kind).as_u16(), cgda::grpc::error::code(kind));
+        assert_eq!(row, Some(&found));
+    }
+}
+
+#[tokio::test]
+async fn wrong_requests_are_problems() {
+    let server = Server::start_with(&[("CGDA_LIMITS__UPLOAD_BYTES", "100000")]);
+    let http = Http::new(&server);
+    let post = |path: &str| http.request(Method::POST, path).header("content-type", "application/json");
+
+    send(post("/worlds").body("{")).await.expect_problem(400, "invalid_json");
+    let wrong = send(post("/worlds").body(r#"{"name": "w", "spec": {"kind": "moon"}}"#)).await;
+    assert_eq!(wrong.expect_problem(422, "invalid_request").text("/errors/0/pointer"), "/spec/kind");
+    let wrong = send(post("/worlds").body(r#"{"name": "w", "specs": {}}"#)).await;
+    assert_eq!(wrong.expect_problem(422, "invalid_request").text("/errors/0/pointer"), "/specs");
+    let text = http.request(Method::POST, "/worlds").header("content-type", "text/plain").body("x");
+    send(text).await.expect_problem(415, "unsupported_media_type");
+
+    let nobody = "0".repeat(32);
+    http.get(&format!("/jobs/job_{nobody}")).await.expect_problem(404, "not_found");
+    http.get("/jobs/nobody").await.expect_problem(404, "not_found");
+    http.get("/nowhere").await.expect_problem(404, "no_such_route");
+    http.get(&format!("/jobs/job_{nobody}/@pause")).await.expect_problem(404, "no_such_route");
+    let put = send(http.request(Method::PUT, "/jobs")).await.expect_problem(405, "method_not_allowed");
+    assert!(put.headers["allow"].to_str().unwrap().contains("POST"));
+    http.get("/jobs?page_size=x").await.expect_problem(400, "invalid_query");
+    http.get("/jobs?nonsense=1").await.expect_problem(400, "invalid_query");
+
+    let large = upload(&http, "large.csv", vec![b'1'; 100_001]).await;
+    large.expect_problem(413, "body_too_large");
+    let chunks = futures_util::stream::iter((0..200).map(|_| Ok::<_, std::io::Error>(vec![b'1'; 1000])));
+    let lying = http.request(Method::POST, "/demonstrations").body(reqwest::Body::wrap_stream(chunks));
+    send(lying).await.expect_problem(413, "body_too_large");
+}
+
+#[tokio::test]
+async fn a_bad_file_is_refused_with_row_and_column_over_both_protocols() {
+    let server = Server::start();
+    let http = Http::new(&server);
+    let csv = b"time_s,x,y\n0.0,1.0,2.0\n0.1,nan,2.0\n0.2,1.0,2.0\n".to_vec();
+    let refused = upload(&http, "bad.csv", csv.clone()).await.expect(422);
+    let place = refused.json["errors"][0].clone();
+    let pointer = place["pointer"].as_str().unwrap();
+    assert!(pointer.contains("/rows/3") && pointer.ends_with("/x"), "{pointer}");
+
+    let mut grpc = Grpc::new(&server).await;
+    let part = |part| proto::UploadRequest { part: Some(part) };
+    let parts = [
+        part(proto::upload_request::Part::Header(proto::UploadHeader::default())),
+        part(proto::upload_request::Part::FileName("bad.csv".to_owned())),
+        part(proto::upload_request::Part::Content(csv)),
+    ];
+    let status = grpc.demonstrations.upload(futures_util::stream::iter(parts)).await.unwrap_err();
+    assert_eq!(status.code(), Code::InvalidArgument);
+    let details = status.get_error_details();
+    assert_eq!(details.error_info().unwrap().reason, refused.text("/code"));
+    let violation = &details.bad_request().unwrap().field_violations[0];
+    assert_eq!(json!([violation.field, violation.reason]), json!([place["pointer"], place["code"]]));
+    assert!(http.get("/demonstrations").await.json["items"].as_array().unwrap().is_empty());
+}
+
+#[tokio::test]
+async fn a_body_above_the_limit_of_json_is_too_large() {
+    let server = Server::start();
+    let http = Http::new(&server);
+    let mut body = world();
+    body["name"] = json!("x".repeat(17 << 20));
+    http.post("/worlds", &body).await.expect_problem(413, "body_too_large");
+}

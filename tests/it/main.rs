@@ -1,0 +1,14 @@
+//! Black-box tests: the real binary, driven over HTTP and gRPC by real clients.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, helpers included")]
+
+mod auth;
+mod clients;
+mod errors;
+mod events;
+mod jobs;
+mod main_job;
+mod paging;
+mod parity;
+mod server;
+mod work;
