@@ -3,7 +3,7 @@
 use super::problem::{CONTENT_TYPE_PROBLEM, ProblemDetails};
 use super::verbs;
 use utoipa::openapi::path::PathItem;
-use utoipa::openapi::schema::SchemaType;
+use utoipa::openapi::schema::{Schema, SchemaType};
 use utoipa::openapi::security::{ApiKey, ApiKeyValue, Http, HttpAuthScheme, SecurityScheme};
 use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Response, ResponseBuilder, schema};
 use utoipa::{Modify, OpenApi as _};
@@ -80,7 +80,31 @@ pub fn finish(mut document: OpenApi) -> OpenApi {
             operation.responses.responses.entry("default".to_owned()).or_insert_with(|| RefOr::T(problem()));
         }
     }
+    open_extended(&mut document);
     document
+}
+
+/// A schema that refuses unknown properties cannot be part of an `allOf` that adds one (the tag of a union): the
+/// document would allow nothing at all. Such parts are documented open; the service still refuses unknown fields.
+fn open_extended(document: &mut OpenApi) {
+    let Some(components) = &mut document.components else { return };
+    let unions = components.schemas.values().filter_map(|schema| match schema {
+        RefOr::T(Schema::OneOf(union)) => Some(&union.items),
+        _ => None,
+    });
+    let parts = unions.flatten().filter_map(|variant| match variant {
+        RefOr::T(Schema::AllOf(all)) => Some(&all.items),
+        _ => None,
+    });
+    let names = parts.flatten().filter_map(|part| match part {
+        RefOr::Ref(reference) => reference.ref_location.rsplit('/').next().map(str::to_owned),
+        RefOr::T(_) => None,
+    });
+    for name in names.collect::<Vec<_>>() {
+        if let Some(RefOr::T(Schema::Object(object))) = components.schemas.get_mut(&name) {
+            object.additional_properties = None;
+        }
+    }
 }
 
 fn operations(item: &mut PathItem) -> impl Iterator<Item = &mut utoipa::openapi::path::Operation> {
@@ -96,7 +120,7 @@ fn problem() -> Response {
 pub struct Binary;
 
 impl utoipa::PartialSchema for Binary {
-    fn schema() -> RefOr<schema::Schema> {
+    fn schema() -> RefOr<Schema> {
         schema::ObjectBuilder::new()
             .schema_type(SchemaType::Type(schema::Type::String))
             .format(Some(schema::SchemaFormat::KnownFormat(schema::KnownFormat::Binary)))
@@ -117,6 +141,22 @@ mod tests {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/web/openapi.json");
         let kept = std::fs::read_to_string(path).unwrap_or_default();
         assert!(kept == super::super::document_json(), "web/openapi.json is stale: renew it with `{RENEW}`");
+    }
+
+    #[test]
+    fn the_variants_of_a_union_allow_their_tag() {
+        let text = super::super::document_json();
+        let document: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let schemas = &document["components"]["schemas"];
+        assert_eq!(schemas["CreateWorld"]["additionalProperties"], false);
+        for name in ["CreateJob", "WorldSpec", "MethodSpec"] {
+            let variants = schemas[name]["oneOf"].as_array().unwrap();
+            let references = variants.iter().map(|variant| variant["allOf"][0]["$ref"].as_str().unwrap());
+            for part in references.map(|reference| reference.rsplit('/').next().unwrap()) {
+                assert_eq!(schemas[part]["type"], "object", "{name}: {part}");
+                assert!(schemas[part]["additionalProperties"].is_null(), "{name}: {part}");
+            }
+        }
     }
 
     #[test]
