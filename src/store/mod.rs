@@ -1,3 +1,5 @@
 //! Engines behind the Store port; `suite.rs` is what each of them must pass.
 
 pub mod sqlite;
+#[cfg(test)]
+mod suite;

@@ -8,6 +8,8 @@ mod results;
 mod robots;
 mod rows;
 mod statements;
+#[cfg(test)]
+mod tests;
 mod writer;
 
 pub use open::OpenError;
@@ -221,29 +223,5 @@ impl Store for SqliteStore {
     }
     async fn trajectory(&self, id: &TrajectoryId) -> Result<TrajectoryView, StoreError> {
         results::trajectory(self, id.as_str()).await
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use sqlx::{ConnectOptions as _, Executor as _, SqlSafeStr as _};
-
-    #[tokio::test]
-    async fn every_statement_prepares_on_a_fresh_database() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("cgda.db");
-        SqliteStore::open(&path).await.unwrap();
-        let mut connection = open::writing(&path).connect().await.unwrap();
-        let modules =
-            [claims::STATEMENTS, demonstrations::STATEMENTS, jobs::STATEMENTS, results::STATEMENTS, robots::STATEMENTS];
-        let mut prepared = 0;
-        for statement in modules.into_iter().flatten() {
-            if let Err(error) = connection.prepare((*statement).into_sql_str()).await {
-                panic!("{error}: {statement}");
-            }
-            prepared += 1;
-        }
-        assert!(prepared > 40, "{prepared}");
     }
 }

@@ -1,0 +1,132 @@
+//! The suite, and what only SQLite can do wrong.
+
+use super::*;
+use crate::store::suite::conformance;
+use sqlx::sqlite::SqliteConnection;
+use sqlx::{ConnectOptions as _, Executor as _, SqlSafeStr as _};
+
+async fn fresh() -> (tempfile::TempDir, SqliteStore) {
+    let directory = tempfile::tempdir().unwrap();
+    let store = SqliteStore::open(&directory.path().join("cgda.db")).await.unwrap();
+    (directory, store)
+}
+
+conformance! { fresh();
+    keeps_demonstrations_until_deleted,
+    changes_a_demonstration_only_at_the_revision_named,
+    pages_lists_newest_first_without_gap_or_repeat,
+    counts_versions_and_keeps_what_jobs_name,
+    submits_once_a_key,
+    gives_the_oldest_job_to_one_worker,
+    lists_jobs_by_state_and_kind,
+    writes_nothing_for_a_lost_claim,
+    writes_a_step_whole_or_not_at_all,
+    ends_a_job_once_with_its_results,
+    numbers_events_and_tells_unknown_positions,
+    gives_back_the_last_checkpoint,
+    quarantines_only_jobs_that_crash_without_progress,
+    takes_back_jobs_whose_lease_ran_out,
+    steers_jobs_as_the_machine_allows,
+}
+
+#[tokio::test]
+async fn every_statement_prepares_on_a_fresh_database() {
+    let (directory, _store) = fresh().await;
+    let mut connection = open::writing(&directory.path().join("cgda.db")).connect().await.unwrap();
+    let modules =
+        [claims::STATEMENTS, demonstrations::STATEMENTS, jobs::STATEMENTS, results::STATEMENTS, robots::STATEMENTS];
+    let mut prepared = 0;
+    for statement in modules.into_iter().flatten() {
+        if let Err(error) = connection.prepare((*statement).into_sql_str()).await {
+            panic!("{error}: {statement}");
+        }
+        prepared += 1;
+    }
+    assert!(prepared > 40, "{prepared}");
+}
+
+async fn note(connection: &mut SqliteConnection, text: String) -> Result<(), StoreError> {
+    sqlx::query("INSERT INTO idempotency_keys (key, body_sha256, job_id, created_at) SELECT ?1, '', id, 0 FROM jobs")
+        .bind(text)
+        .execute(connection)
+        .await
+        .map_err(engine_error)?;
+    Ok(())
+}
+
+async fn notes(store: &SqliteStore) -> i64 {
+    sqlx::query_scalar("SELECT count(*) FROM idempotency_keys").fetch_one(&store.readers).await.unwrap()
+}
+
+/// A row that notes can refer to.
+async fn with_a_job(store: &SqliteStore) {
+    sqlx::query(
+        "INSERT INTO jobs (id, kind, name, state, state_since, attempt, crashes, last_seq, progress, request, work,
+            created_at) VALUES ('job', '', '', '', 0, 0, 0, 0, '', '', '', 0)",
+    )
+    .execute(&mut open::writing(&database(store).await).connect().await.unwrap())
+    .await
+    .unwrap();
+}
+
+async fn database(store: &SqliteStore) -> std::path::PathBuf {
+    let file: String =
+        sqlx::query_scalar("SELECT file FROM pragma_database_list").fetch_one(&store.readers).await.unwrap();
+    file.into()
+}
+
+#[tokio::test]
+async fn an_operation_that_fails_takes_nothing_of_its_group_along() {
+    let (_directory, store) = fresh().await;
+    with_a_job(&store).await;
+    let write = |number: usize| {
+        store.writer.write(move |connection| {
+            Box::pin(async move {
+                note(connection, number.to_string()).await?;
+                if number % 3 == 0 { Err(StoreError::Full) } else { Ok(number) }
+            })
+        })
+    };
+    let answers = futures_util::future::join_all((0..90).map(write)).await;
+    assert_eq!(answers.iter().filter(|answer| answer.is_ok()).count(), 60);
+    assert_eq!(notes(&store).await, 60);
+}
+
+#[tokio::test]
+async fn a_caller_that_goes_away_cancels_nothing() {
+    let (_directory, store) = fresh().await;
+    with_a_job(&store).await;
+    let write = store.writer.write(|connection| {
+        Box::pin(async move {
+            note(connection, "before".to_owned()).await?;
+            tokio::time::sleep(Duration::from_millis(50)).await;
+            note(connection, "after".to_owned()).await
+        })
+    });
+    assert!(tokio::time::timeout(Duration::from_millis(20), write).await.is_err());
+    // The next operation waits for the one that was left alone.
+    store.writer.write(|_| Box::pin(async { Ok(()) })).await.unwrap();
+    assert_eq!(notes(&store).await, 2);
+}
+
+#[tokio::test]
+async fn damaged_samples_are_found() {
+    let (_directory, store) = fresh().await;
+    store
+        .writer
+        .write(|connection| {
+            Box::pin(async move {
+                for statement in [
+                    "INSERT INTO demonstrations (id, name, revision, sha256, created_at, view, report)
+                        VALUES ('d', '', 1, '', 0, '', '')",
+                    "INSERT INTO demonstration_samples (demonstration_id, sha256, data) VALUES ('d', 'other', x'00')",
+                ] {
+                    sqlx::query(statement).execute(&mut *connection).await.map_err(engine_error)?;
+                }
+                Ok(())
+            })
+        })
+        .await
+        .unwrap();
+    assert!(matches!(demonstrations::samples(&store, "d").await, Err(StoreError::Corrupt { .. })));
+}
