@@ -8,15 +8,15 @@ import { signIn } from "./steps.mjs";
 
 /** Every page, with a text that only it has once its data is there. */
 const pagesOf = (data) => [
-  { path: "/jobs", text: "circle" },
+  { path: "/jobs", text: "loop" },
   { path: "/jobs/new", text: "Before you start" },
-  { path: `/jobs/${data.circleJob.id}`, text: "Succeeded" },
-  { path: `/runs/${data.circleJob.result.runs[0]}`, text: "Goal 1 of" },
+  { path: `/jobs/${data.loopJob.id}`, text: "Succeeded" },
+  { path: `/runs/${data.loopJob.result.runs[0]}`, text: "Goal 1 of" },
   { path: `/runs/${data.paintJob.result.runs[0]}`, text: "cells painted" },
-  { path: "/demonstrations", text: "circle-1" },
+  { path: "/demonstrations", text: "loop-1" },
   { path: `/demonstrations/${data.demonstration}`, text: "Findings" },
   { path: "/actions", text: "paint" },
-  { path: `/actions/${data.circle}`, text: "Execute on a robot" },
+  { path: `/actions/${data.loop}`, text: "Execute on a robot" },
   { path: "/robots", text: "wall of 4 x 4" },
   { path: `/robots/${data.robot}`, text: "shoulder_roll" },
   { path: "/no/such/page", text: "No such page" },
@@ -73,11 +73,11 @@ async function signedOut({ browser, server }) {
 async function replay({ browser, server, data }) {
   const page = await openPage(browser);
   await signIn(page, server);
-  await page.goto(`${server.url}/runs/${data.circleJob.result.runs[0]}`);
+  await page.goto(`${server.url}/runs/${data.loopJob.result.runs[0]}`);
   await page.locator(".viewer canvas").waitFor();
   await page.waitForTimeout(800);
   assert.ok((await colours(page, ".viewer canvas")) > 50, "the 3-D view is blank");
-  const goals = data.circleJob.progress.goals;
+  const goals = data.loopJob.progress.goals;
 
   const time = page.getByRole("slider", { name: "Time in the trajectory" });
   await time.focus();
@@ -90,6 +90,7 @@ async function replay({ browser, server, data }) {
   await page.getByText(`Goal ${goals} of ${goals}`).waitFor({ timeout: 60_000 });
   await page.getByRole("button", { name: "Play" }).waitFor();
 
+  assert.ok((await server.api("GET", `/runs/${data.loopJob.result.runs[0]}`)).trajectory, "the run has a trajectory");
   for (const format of ["CSV", "JSON", "ROS 2"]) {
     const waiting = page.waitForEvent("download");
     await page.getByRole("link", { name: format, exact: true }).click();
@@ -155,7 +156,7 @@ async function jobsListIsLive({ browser, server, data }) {
   const page = await openPage(browser);
   await signIn(page, server);
   await page.getByRole("heading", { name: "Jobs" }).waitFor();
-  const job = await startSlowJob(server, data, 5000);
+  const job = await startSlowJob(server, data, 300);
   const row = page.getByRole("row").filter({ has: page.locator(`a[href="/jobs/${job.id}"]`) });
   await row.getByText("Running").waitFor();
   await server.api("POST", `/jobs/${job.id}:cancel`);

@@ -3,22 +3,34 @@ import { readFileSync } from "node:fs";
 
 const EXAMPLES = new URL("../../examples/", import.meta.url);
 
-/** A circle drawn by the tool in front of the right arm, mm; all of it within reach. */
-function circleCsv(phase) {
+/** Where the right arm holds its tool, m, for the genes (rad) shoulder pitch, shoulder roll and elbow pitch. */
+function toolPoint(g0, g1, g2) {
+  const turn = (angle, u, v) => [u * Math.cos(angle) - v * Math.sin(angle), u * Math.sin(angle) + v * Math.cos(angle)];
+  const [a, b] = turn(-Math.PI / 4, 0, 0.00892);
+  let [x, y, z] = [a, b, -0.4692];
+  [z, x] = turn(-g2, z, x);
+  z -= 0.329;
+  [y, z] = turn(-g1, y, z);
+  [z, x] = turn(-g0, z, x);
+  return [x, y - 0.34692, z + 0.7982];
+}
+
+/** A loop that the arm can really follow, mm. */
+function loopCsv(phase) {
   const rows = ["time_s,x [mm],y [mm],z [mm]"];
   for (let step = 0; step <= 160; step += 1) {
     const angle = (2 * Math.PI * step) / 160;
-    const wobble = 4 * Math.sin(3 * angle + phase);
-    const position = [430 + wobble, -420 + 110 * Math.sin(angle), 520 + 110 * Math.cos(angle)];
-    rows.push([step * 0.1, ...position].map((value) => value.toFixed(4)).join(","));
+    const wobble = 0.01 * Math.sin(3 * angle + phase);
+    const point = toolPoint(0.6 + 0.4 * Math.sin(angle) + wobble, 0.5 + 0.4 * Math.cos(angle), 1 + 0.3 * Math.sin(angle));
+    rows.push([step * 0.1, ...point.map((value) => 1000 * value)].map((value) => value.toFixed(4)).join(","));
   }
   return rows.join("\n");
 }
 
-/** A wall painted evenly, %. */
+/** A wall painted square by square, %. */
 function paintCsv(pace) {
   const rows = ["time_s,painted [%]"];
-  for (let step = 0; step <= 120; step += 1) rows.push(`${(step * pace).toFixed(3)},${((100 * step) / 120).toFixed(4)}`);
+  for (let step = 0; step < 160; step += 1) rows.push(`${(step * pace).toFixed(3)},${6.25 * (1 + Math.floor(step / 10))}`);
   return rows.join("\n");
 }
 
@@ -59,9 +71,9 @@ export const sst = (population, stagnation) => ({ name: "sst", population, stagn
 
 /** Everything the pages are looked at with; ids by meaning. */
 export async function fill(server) {
-  const circles = [await upload(server, "circle-1", circleCsv(0)), await upload(server, "circle-2", circleCsv(1.3))];
-  const paints = [await upload(server, "paint-1", paintCsv(0.2)), await upload(server, "paint-2", paintCsv(0.22))];
-  const circle = await generalize(server, "circle", circles, 1.6);
+  const loops = [await upload(server, "loop-1", loopCsv(0)), await upload(server, "loop-2", loopCsv(1.3))];
+  const paints = [await upload(server, "paint-1", paintCsv(0.15)), await upload(server, "paint-2", paintCsv(0.16))];
+  const loop = await generalize(server, "loop", loops, 1.6);
   const paint = await generalize(server, "paint", paints, 1.5);
 
   const urdf = readFileSync(new URL("robots/teo_right_arm.urdf", EXAMPLES), "utf8");
@@ -71,22 +83,22 @@ export async function fill(server) {
   const space = (await server.api("POST", "/worlds", { name: "tool position", spec: { kind: "tool_position", unit: "mm" } })).id;
   const wall = (await server.api("POST", "/worlds", { name: "wall of 4 x 4", spec: WALL })).id;
 
-  const execution = (change) => ({ kind: "execution", action: circle, robot, world: space, seed: 1, ...change });
-  const circleJob = await server.api("POST", "/jobs", execution({ execution: { method: sst(50, 3) } }));
+  const execution = (change) => ({ kind: "execution", action: loop, robot, world: space, seed: 1, ...change });
+  const loopJob = await server.api("POST", "/jobs", execution({ execution: { method: sst(50, 3) } }));
   const paintJob = await server.api("POST", "/jobs", {
     ...execution({ action: paint, world: wall, repetitions: 3 }),
     execution: { method: sst(10, 10), target_discrepancy: 0 },
   });
-  const done = [await waitForJob(server, circleJob.id), await waitForJob(server, paintJob.id)];
+  const done = [await waitForJob(server, loopJob.id), await waitForJob(server, paintJob.id)];
   for (const job of done) if (job.state !== "SUCCEEDED") throw new Error(`${job.name}: ${JSON.stringify(job.failure)}`);
   return {
-    circle,
+    loop,
     paint,
     robot,
     space,
     wall,
-    demonstration: circles[0],
-    circleJob: done[0],
+    demonstration: loops[0],
+    loopJob: done[0],
     paintJob: done[1],
     execution,
   };
@@ -94,5 +106,5 @@ export async function fill(server) {
 
 /** A job slow enough to be watched. */
 export function startSlowJob(server, data, perSecond = 150) {
-  return server.api("POST", "/jobs", data.execution({ execution: { method: sst(50, 3) }, max_evaluations_per_s: perSecond, name: "slow circle" }));
+  return server.api("POST", "/jobs", data.execution({ execution: { method: sst(50, 3) }, max_evaluations_per_s: perSecond, name: "slow loop" }));
 }

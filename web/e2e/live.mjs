@@ -5,7 +5,8 @@ import { fill, startSlowJob } from "./data.mjs";
 import { startServer } from "./server.mjs";
 import { fact, signIn } from "./steps.mjs";
 
-const state = (page, name) => page.locator(".badge").getByText(name, { exact: true }).waitFor();
+const state = (page, name, timeout = 15_000) =>
+  page.locator(".badge").getByText(name, { exact: true }).waitFor({ timeout });
 
 async function grows(page) {
   const before = await fact(page, "Evaluations");
@@ -48,7 +49,7 @@ async function lostServer({ browser }) {
   const page = await openPage(browser);
   try {
     const own = await fill(first);
-    const job = await startSlowJob(first, own, 300);
+    const job = await startSlowJob(first, own, 1500);
     await signIn(page, first);
     await page.goto(`${first.url}/jobs/${job.id}`);
     await state(page, "Live");
@@ -63,7 +64,7 @@ async function lostServer({ browser }) {
         await signIn(page, second);
         await page.goto(`${second.url}/jobs/${job.id}`);
       }
-      await state(page, "Succeeded").catch(async (error) => {
+      await state(page, "Succeeded", 60_000).catch(async (error) => {
         const told = await second.api("GET", `/jobs/${job.id}`);
         throw new Error(`${error.message}; the server says ${told.state}, ${told.progress.total_evaluations} evaluations`);
       });

@@ -23,6 +23,6 @@ export async function pictures({ browser, server, data, screenshots }) {
   await page.getByRole("slider", { name: "Time in the trajectory" }).focus();
   await page.keyboard.press("End");
   await page.waitForTimeout(1000);
-  await page.locator("section[aria-label=Replay]").screenshot({ path: `${FOLDER}replay.png` });
+  await page.locator("section:has(.viewer)").screenshot({ path: `${FOLDER}replay.png` });
   await page.context().close();
 }

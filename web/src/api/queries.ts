@@ -6,7 +6,7 @@ import { api, body } from "./client";
 
 /** How often lists are asked again while something in them moves, and while nothing does. */
 const LIVELY_MS = 1500;
-const CALM_MS = 8000;
+const CALM_MS = 4000;
 
 const nextPage = (page: { next_page_token: string }) => (page.next_page_token === "" ? undefined : page.next_page_token);
 const pageQuery = (token: string) => ({ page_size: 50, ...(token === "" ? {} : { page_token: token }) });

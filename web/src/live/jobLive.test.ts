@@ -42,7 +42,7 @@ describe("applyEvents", () => {
       { seq: 1, job, at, type: "state", state: "RUNNING", reason: null, attempt: 1 },
       progressEvent(2, {}),
       { seq: 3, job, at, type: "goal", goal: goal(0, 80, 9) },
-      progressEvent(4, { goal_index: 1, evaluations: 130, discrepancy: 20, finished_goals: [goal(0, 80, 9)] }),
+      progressEvent(4, { goal_index: 1, evaluations: 130, discrepancy: 20 }),
       {
         seq: 5,
         job,
@@ -73,7 +73,7 @@ describe("applyEvents", () => {
 
   it("starts a new curve and ladder with a new repetition", () => {
     const live = applyEvents(INITIAL, [
-      progressEvent(1, { evaluations: 500, finished_goals: [goal(0, 80, 9)] }),
+      { seq: 1, job, at, type: "goal", goal: goal(0, 500, 9) },
       progressEvent(2, { repetition: 1, evaluations: 40, discrepancy: 30 }),
     ]);
     expect(live.curve).toEqual({ repetition: 1, evaluations: [40], discrepancy: [30], goal: [0] });

@@ -66,9 +66,12 @@ function applyEvent(live: LiveJob, event: JobEvent): LiveJob {
 
 function withProgress(live: LiveJob, progress: JobProgress): LiveJob {
   const { repetition, finished_goals: finished } = progress;
-  const started = live.curve.repetition === repetition ? live.curve : emptyCurve(repetition);
+  const sameRun = live.curve.repetition === repetition;
+  const started = sameRun ? live.curve : emptyCurve(repetition);
   const curve = withPoint(started, progress.evaluations, progress.discrepancy ?? null, progress.goal_index);
-  return { ...live, progress, curve, goals: finished };
+  // Streamed progress leaves finished goals to the goal events; a stream that begins late may carry them.
+  const goals = finished.length > 0 ? finished : sameRun ? live.goals : [];
+  return { ...live, progress, curve, goals };
 }
 
 function withGoal(live: LiveJob, goal: GoalProgress): LiveJob {

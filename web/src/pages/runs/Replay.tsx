@@ -17,14 +17,19 @@ import { usePlayback } from "./usePlayback";
 
 const MAX_TRAIL = 1500;
 
+/** The part of a trajectory that is drawn. */
+type Motion = Pick<Trajectory, "joint_names" | "points" | "duration_s" | "goal_times_s">;
+
 export function Replay({ run, goals }: { run: Run; goals: RunGoals }) {
-  const trajectory = useRunTrajectory(run.id, true);
+  const planned = run.trajectory != null;
+  const trajectory = useRunTrajectory(run.id, planned);
+  const poses = useMemo(() => throughPoses(goals), [goals]);
   const robot = useRobot(run.robot);
   const urdf = useUrdf(run.robot);
   const world = useWorld(run.world);
   return (
-    <Card title="Replay" aside={<Legend world={world.data} />}>
-      <Loaded query={trajectory}>
+    <Card title={planned ? "Replay" : "Poses found, one a second"} aside={<Legend world={world.data} />}>
+      <Loaded query={planned ? trajectory : { data: poses, error: null }}>
         {(path) =>
           robot.data !== undefined && urdf.data !== undefined && world.data !== undefined ? (
             <Scene goals={goals} trajectory={path} robot={robot.data} urdf={urdf.data} world={world.data} />
@@ -39,7 +44,7 @@ export function Replay({ run, goals }: { run: Run; goals: RunGoals }) {
 
 interface SceneProps {
   goals: RunGoals;
-  trajectory: Trajectory;
+  trajectory: Motion;
   robot: Robot;
   urdf: string;
   world: World;
@@ -93,6 +98,12 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
       </p>
     </>
   );
+}
+
+/** Without a trajectory: the poses of the goals, a second apart. It is drawn, never executed. */
+function throughPoses({ goals, joint_names: names }: RunGoals): Motion {
+  const points = goals.map((goal, index) => ({ t_s: index, positions: goal.joints, velocities: [], accelerations: [] }));
+  return { joint_names: names, points, duration_s: Math.max(1, goals.length - 1), goal_times_s: points.map((point) => point.t_s) };
 }
 
 function wallOf(world: World): WallGrid | undefined {

@@ -25,13 +25,12 @@ export function RunPage() {
             <Card>
               <RunFacts run={data} features={goals.data?.features ?? []} />
             </Card>
-            {data.trajectory == null ? (
-              <Notice tone="warn" title="No trajectory could be made within the robot's limits">
+            {data.trajectory == null && (
+              <Notice tone="warn" title="There is no trajectory of this run">
                 <p>{data.trajectory_problem}</p>
               </Notice>
-            ) : (
-              <Loaded query={goals}>{(reached) => <Replay run={data} goals={reached} />}</Loaded>
             )}
+            <Loaded query={goals}>{(reached) => <Replay run={data} goals={reached} />}</Loaded>
             <Card title="Discrepancy">
               <ConvergenceChart run={data} goals={goals.data} />
             </Card>
