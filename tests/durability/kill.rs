@@ -1,0 +1,70 @@
+//! 20 jobs run while the server is killed 10 times: every job ends once, with the bits of a server left alone.
+
+use super::server::{Server, digests, events};
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+const JOBS: u64 = 20;
+const KILLS: u32 = 10;
+
+async fn submit(server: &Server, named: &Value, paced: bool) -> Vec<String> {
+    let mut jobs = Vec::new();
+    for number in 0..JOBS {
+        let mut request = named.clone();
+        request["seed"] = json!(1000 + 10 * number);
+        request["repetitions"] = json!(2);
+        if paced {
+            // About two seconds a job: long enough to be killed several times.
+            request["max_evaluations_per_s"] = json!(1500.0);
+        }
+        let job = server.post("/api/v1/jobs", &request).await;
+        jobs.push(job["id"].as_str().unwrap().to_owned());
+    }
+    jobs
+}
+
+/// What a server left alone computes.
+async fn reference() -> Vec<Vec<String>> {
+    let data = tempfile::tempdir().unwrap();
+    let server = Server::start(data.path());
+    let named = server.set_up().await;
+    let mut found = Vec::new();
+    for job in submit(&server, &named, false).await {
+        let ended = server.ended(&job).await;
+        assert_eq!(ended["state"], "SUCCEEDED", "{ended}");
+        found.push(digests(&server, &ended).await);
+    }
+    found
+}
+
+#[tokio::test]
+async fn ten_kills_lose_no_job_double_none_and_change_no_bit() {
+    let expected = reference().await;
+    let data = tempfile::tempdir().unwrap();
+    let mut server = Server::start(data.path());
+    let named = server.set_up().await;
+    let jobs = submit(&server, &named, true).await;
+    let started = Instant::now();
+    for kill in 0..KILLS {
+        // At different points of the jobs' cycle of slices and checkpoints.
+        tokio::time::sleep(Duration::from_millis(350 + u64::from(kill * 97 % 230))).await;
+        server.kill();
+        server = Server::start(data.path());
+    }
+    let killing = started.elapsed();
+    let (mut attempts, mut interrupted) = (0, 0);
+    for (job, expected) in jobs.iter().zip(&expected) {
+        let ended = server.ended(job).await;
+        assert_eq!(ended["state"], "SUCCEEDED", "{ended}");
+        assert_eq!(&digests(&server, &ended).await, expected, "{job}");
+        attempts += ended["attempt"].as_u64().unwrap();
+        let events = events(&server, job).await;
+        assert!(events.iter().enumerate().all(|(index, event)| event["seq"] == index as u64 + 1), "{job}");
+        let count = |key: &str, value: &str| events.iter().filter(|event| event[key] == value).count();
+        assert_eq!((count("state", "SUCCEEDED"), count("type", "run")), (1, 2), "{job}");
+        interrupted += count("state", "INTERRUPTED");
+        assert_eq!(events.last().unwrap()["state"], "SUCCEEDED");
+    }
+    eprintln!("{KILLS} kills in {killing:?}: {attempts} attempts for {JOBS} jobs, {interrupted} times interrupted");
+    assert!(interrupted >= KILLS as usize, "the kills met only {interrupted} running jobs: the test shows nothing");
+}

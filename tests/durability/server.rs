@@ -1,0 +1,134 @@
+//! A server of our own in a child process, and what a client does with it.
+
+use serde_json::{Value, json};
+use std::io::{BufRead as _, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A running server; killed when dropped.
+pub struct Server {
+    child: Child,
+    base: String,
+    token: String,
+    client: reqwest::Client,
+}
+
+impl Server {
+    /// Starts the binary on `data`, on a free port.
+    pub fn start(data: &Path) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_cgda"))
+            .args(["serve", "--listen", "127.0.0.1:0", "--workers", "4", "--data-dir"])
+            .arg(data)
+            .env("CGDA_LOG__FILTER", "warn")
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let field = |name: &str| {
+            let value = line.split_whitespace().find_map(|word| word.strip_prefix(name)).map(str::to_owned);
+            value.unwrap_or_else(|| panic!("no {name} in {line:?}"))
+        };
+        let token = field("url=").split_once("token=").unwrap().1.to_owned();
+        Self { base: field("http="), token, child, client: reqwest::Client::new() }
+    }
+
+    /// SIGKILL: nothing is said, nothing is tidied up.
+    pub fn kill(&mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+    }
+
+    /// SIGTERM; returns how long the server took to exit, and whether it exited well.
+    pub fn terminate(&mut self) -> (Duration, bool) {
+        let started = Instant::now();
+        let sent = Command::new("kill").args(["-TERM", &self.child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+        let status = self.child.wait().unwrap();
+        (started.elapsed(), status.success())
+    }
+
+    fn request(&self, method: reqwest::Method, path: &str) -> reqwest::RequestBuilder {
+        self.client.request(method, format!("{}{path}", self.base)).bearer_auth(&self.token)
+    }
+
+    /// A GET whose answer is a success, as text.
+    pub async fn text(&self, path: &str) -> String {
+        let answer = self.request(reqwest::Method::GET, path).send().await.unwrap();
+        let (status, text) = (answer.status(), answer.text().await.unwrap());
+        assert!(status.is_success(), "GET {path}: {status} {text}");
+        text
+    }
+
+    /// A GET whose answer is a success, as JSON.
+    pub async fn get(&self, path: &str) -> Value {
+        serde_json::from_str(&self.text(path).await).unwrap()
+    }
+
+    /// A POST whose answer is a success.
+    pub async fn post(&self, path: &str, body: &Value) -> Value {
+        let request = self.request(reqwest::Method::POST, path).header("content-type", "application/json");
+        let answer = request.body(body.to_string()).send().await.unwrap();
+        let (status, text) = (answer.status(), answer.text().await.unwrap());
+        assert!(status.is_success(), "POST {path}: {status} {text}");
+        serde_json::from_str(&text).unwrap()
+    }
+
+    /// Waits until the job is in a final state.
+    pub async fn ended(&self, job: &str) -> Value {
+        let started = Instant::now();
+        loop {
+            let view = self.get(&format!("/api/v1/jobs/{job}")).await;
+            if ["SUCCEEDED", "FAILED", "CANCELLED"].contains(&view["state"].as_str().unwrap()) {
+                return view;
+            }
+            assert!(started.elapsed() < Duration::from_secs(60), "{job} does not end: {view}");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    }
+
+    /// Uploads a small action, the shipped arm and the tool's world; returns what an execution names.
+    pub async fn set_up(&self) -> Value {
+        let csv = "time_s,x [mm],y [mm],z [mm]\n0,460,-500,304\n1,420,-590,300\n2,320,-620,294\n3,300,-480,300\n";
+        let upload = self.request(reqwest::Method::POST, "/api/v1/demonstrations?file_name=arc.csv");
+        let answer = upload.header("content-type", "text/csv").body(csv).send().await.unwrap();
+        let demonstration: Value = serde_json::from_str(&answer.text().await.unwrap()).unwrap();
+        let request = json!({"kind": "generalization", "name": "arc", "t_min_s": 0.75,
+            "demonstrations": [demonstration["id"]]});
+        let job = self.post("/api/v1/jobs", &request).await;
+        let made = self.ended(job["id"].as_str().unwrap()).await;
+        let spec = json!({"free_joints": ["shoulder_pitch", "shoulder_roll", "elbow_pitch"],
+            "fixed": {"wrist_yaw": -0.785_398_163_397_448_3}});
+        let urdf = include_str!("../../examples/robots/teo_right_arm.urdf");
+        let robot = self.post("/api/v1/robots", &json!({"name": "arm", "urdf": urdf, "spec": spec})).await;
+        let world = json!({"name": "tool", "spec": {"kind": "tool_position", "unit": "mm"}});
+        let world = self.post("/api/v1/worlds", &world).await;
+        json!({"kind": "execution", "action": made["result"]["action"], "robot": robot["id"], "world": world["id"],
+            "execution": {"method": {"name": "sst", "population": 20, "stagnation": 3}}})
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        // Already dead in tests that killed it.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// The digests of a job's runs, in the order of repetitions.
+pub async fn digests(server: &Server, job: &Value) -> Vec<String> {
+    let mut digests = Vec::new();
+    for run in job["result"]["runs"].as_array().unwrap() {
+        let run = server.get(&format!("/api/v1/runs/{}", run.as_str().unwrap())).await;
+        digests.push(run["digest"].as_str().unwrap().to_owned());
+    }
+    digests
+}
+
+/// All events of a job that ended.
+pub async fn events(server: &Server, job: &str) -> Vec<Value> {
+    let text = server.text(&format!("/api/v1/jobs/{job}/events?after_seq=0")).await;
+    text.lines().filter_map(|line| line.strip_prefix("data: ")).map(|data| serde_json::from_str(data).unwrap()).collect()
+}
