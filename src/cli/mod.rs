@@ -28,7 +28,7 @@ enum Command {
     Generalize(generalize::GeneralizeArguments),
     Recognize(recognize::RecognizeArguments),
     Run(run::RunArguments),
-    Serve(serve::ServeArguments),
+    Serve(Box<serve::ServeArguments>),
     Healthcheck(healthcheck::HealthcheckArguments),
     /// Print the OpenAPI 3.1 document of the REST interface.
     Openapi,

@@ -83,7 +83,7 @@ impl ServeArguments {
 /// # Errors
 /// [`GateClosed`] when a start-up gate does not open; whatever else keeps the server from starting.
 pub fn run(arguments: &ServeArguments) -> anyhow::Result<()> {
-    let config = Config::load(arguments.config.as_deref(), arguments.flags()).map_err(GateClosed::because)?;
+    let config = Config::load(arguments.config.as_deref(), &arguments.flags()).map_err(GateClosed::because)?;
     telemetry::start(&config.log)?;
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(serve(&config, arguments));

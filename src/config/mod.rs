@@ -62,7 +62,7 @@ impl Config {
     ///
     /// # Errors
     /// [`ConfigError`] names the key.
-    pub fn load(file: Option<&Path>, flags: Flags) -> Result<Self, ConfigError> {
+    pub fn load(file: Option<&Path>, flags: &Flags) -> Result<Self, ConfigError> {
         let path = match file {
             Some(path) if !path.is_file() => return Err(ConfigError::NoFile { path: path.to_owned() }),
             Some(path) => path,
@@ -106,7 +106,7 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("cgda.toml");
         std::fs::write(&path, toml).unwrap();
-        Config::load(Some(&path), Flags::new())
+        Config::load(Some(&path), &Flags::new())
     }
 
     #[test]
@@ -133,7 +133,7 @@ mod tests {
         std::fs::write(&path, "[server]\nlisten = \"127.0.0.1:1\"\n").unwrap();
         let server = Flags::from([("listen".to_owned(), "127.0.0.1:2".into())]);
         let flags = Flags::from([("server".to_owned(), server.into())]);
-        let config = Config::load(Some(&path), flags).unwrap();
+        let config = Config::load(Some(&path), &flags).unwrap();
         assert_eq!(config.server.listen.port(), 2);
     }
 

@@ -130,5 +130,8 @@ pub async fn digests(server: &Server, job: &Value) -> Vec<String> {
 /// All events of a job that ended.
 pub async fn events(server: &Server, job: &str) -> Vec<Value> {
     let text = server.text(&format!("/api/v1/jobs/{job}/events?after_seq=0")).await;
-    text.lines().filter_map(|line| line.strip_prefix("data: ")).map(|data| serde_json::from_str(data).unwrap()).collect()
+    text.lines()
+        .filter_map(|line| line.strip_prefix("data: "))
+        .map(|data| serde_json::from_str(data).unwrap())
+        .collect()
 }

@@ -211,8 +211,8 @@ fn estimate(work: &Work, clock: &dyn Clock) -> Result<CostEstimate, AppError> {
         |error: &(dyn std::error::Error + 'static)| AppError::field("/execution", "invalid_problem", chain_text(error));
     let mut iet = Iet::new(&work.problem, work.seed).map_err(|error| wrong(&error))?;
     let mut place = world::build(&work.problem.world, iet.chain()).map_err(|error| wrong(&error))?;
-    let started = clock.monotonic();
-    let elapsed = || clock.monotonic().saturating_sub(started);
+    let started = clock.elapsed();
+    let elapsed = || clock.elapsed().saturating_sub(started);
     let mut progress = iet.progress();
     while !progress.finished && progress.evaluations < TRIAL_EVALUATIONS && elapsed() < TRIAL_TIME {
         progress = simulate(&mut iet, place.as_mut(), 1000).map_err(|error| wrong(&error))?;

@@ -16,7 +16,7 @@ use tokio::time::timeout;
 /// Longest that a lost hint can delay a follower.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
 /// Longest bounded wait.
-const MAX_WAIT: Duration = Duration::from_secs(60);
+const MAX_WAIT: Duration = Duration::from_mins(1);
 
 struct Follower {
     app: App,

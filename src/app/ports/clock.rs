@@ -9,5 +9,5 @@ pub trait Clock: Send + Sync {
     fn now(&self) -> Timestamp;
 
     /// Time since some fixed moment; it never jumps.
-    fn monotonic(&self) -> Duration;
+    fn elapsed(&self) -> Duration;
 }

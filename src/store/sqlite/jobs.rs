@@ -4,7 +4,7 @@ use super::rows::{count, json, number, value};
 use super::statements::statements;
 use super::{SqliteStore, engine_error};
 use crate::app::id::JobId;
-use crate::app::jobs::{EventData, EventPage, JobEvent, JobFilter, JobResult, JobView, Work};
+use crate::app::jobs::{EventData, EventPage, JobEvent, JobFilter, JobKind, JobResult, JobView, Work};
 use crate::app::ports::{IdempotencyKey, NewJob, StoreError, Submitted, Transition};
 use crate::app::{Keyset, Timestamp};
 use crate::framework::job::State;
@@ -274,7 +274,7 @@ pub(super) async fn list(store: &SqliteStore, filter: &JobFilter, keyset: &Keyse
         .bind(keyset.before_id.as_deref())
         .bind(i64::from(keyset.limit) + 1)
         .bind(states)
-        .bind(filter.kind.map(|kind| kind.as_str()))
+        .bind(filter.kind.map(JobKind::as_str))
         .fetch_all(&store.readers)
         .await
         .map_err(engine_error)?;

@@ -83,7 +83,7 @@ async fn an_operation_that_fails_takes_nothing_of_its_group_along() {
         store.writer.write(move |connection| {
             Box::pin(async move {
                 note(connection, number.to_string()).await?;
-                if number % 3 == 0 { Err(StoreError::Full) } else { Ok(number) }
+                if number.is_multiple_of(3) { Err(StoreError::Full) } else { Ok(number) }
             })
         })
     };

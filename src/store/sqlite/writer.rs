@@ -116,7 +116,7 @@ async fn open<'c>(
 ) -> Result<&'c mut SqliteConnection, StoreError> {
     match connection {
         Some(open) => Ok(open),
-        empty => Ok(empty.insert(options.connect().await.map_err(|e| engine_error(e))?)),
+        empty => Ok(empty.insert(options.connect().await.map_err(engine_error)?)),
     }
 }
 
