@@ -25,9 +25,9 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Generalize(generalize::GeneralizeArguments),
-    Recognize(recognize::RecognizeArguments),
-    Run(run::RunArguments),
+    Generalize(Box<generalize::GeneralizeArguments>),
+    Recognize(Box<recognize::RecognizeArguments>),
+    Run(Box<run::RunArguments>),
     Serve(Box<serve::ServeArguments>),
     Healthcheck(healthcheck::HealthcheckArguments),
     /// Print the OpenAPI 3.1 document of the REST interface.

@@ -86,7 +86,7 @@ impl Config {
 }
 
 /// Refuses a value outside its bounds.
-fn within<T: PartialOrd + std::fmt::Display>(
+fn within<T: PartialOrd + Copy + std::fmt::Display>(
     key: &'static str,
     value: T,
     range: std::ops::RangeInclusive<T>,
