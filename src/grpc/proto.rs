@@ -1,6 +1,6 @@
 //! The messages and services `build.rs` generates from `proto/cgda/v1`.
 
-#![expect(clippy::pedantic, reason = "generated code; the style of its generator is not ours")]
+#![expect(clippy::pedantic, clippy::allow_attributes, reason = "generated code; its style is not ours")]
 
 tonic::include_proto!("cgda.v1");
 

@@ -1,22 +1,25 @@
 //! Extractors whose rejections are problems: axum's own answer in plain text.
 
 use super::problem::Problem;
+use super::{Settings, body};
 use crate::app::{AppError, ErrorKind};
-use axum::body::Bytes;
-use axum::extract::rejection::BytesRejection;
-use axum::extract::{FromRequest, FromRequestParts, Request};
+use axum::extract::{FromRef, FromRequest, FromRequestParts, Request};
 use axum::http::header::{CONTENT_TYPE, IF_MATCH};
 use axum::http::request::Parts;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 /// A JSON body, in or out.
 #[derive(Debug)]
 pub struct Json<T>(pub T);
 
-impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for Json<T> {
+impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for Json<T>
+where
+    Arc<Settings>: FromRef<S>,
+{
     type Rejection = Problem;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
@@ -24,7 +27,8 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for Json<T> {
         if !is_json(media_type) {
             return Err(unsupported(media_type, "application/json"));
         }
-        let bytes = Bytes::from_request(request, state).await.map_err(|rejection| unreadable(&rejection))?;
+        let limit = Arc::<Settings>::from_ref(state).body_limit_bytes;
+        let bytes = body::read(request, limit).await?;
         parse(&bytes).map(Self).map_err(Problem::from)
     }
 }
@@ -106,14 +110,6 @@ impl<S: Send + Sync> FromRequestParts<S> for IfMatch {
             }
         }
     }
-}
-
-/// The problem of a body that could not be read to its end.
-pub fn unreadable(rejection: &BytesRejection) -> Problem {
-    if rejection.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE {
-        return AppError::new(ErrorKind::TooLarge, "body_too_large", "the body is larger than the limit").into();
-    }
-    AppError::new(ErrorKind::Malformed, "unreadable_body", rejection.body_text()).into()
 }
 
 /// The problem of a content type this address does not read.

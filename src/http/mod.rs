@@ -10,6 +10,7 @@ mod actions;
 mod answer;
 pub mod assets;
 pub mod auth;
+mod body;
 mod demonstrations;
 mod envelope;
 pub mod error;

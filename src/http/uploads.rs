@@ -2,21 +2,18 @@
 //!
 //! The body is counted while it streams in: one byte above the limit ends it with 413, whatever its declared length.
 
-use super::Settings;
 use super::answer::created;
 use super::extract::{Query, unsupported};
 use super::problem::Problem;
+use super::{Settings, body};
 use crate::app::demonstrations::{DemonstrationView, UploadDemonstration, UploadFile, UploadOptions};
 use crate::app::{App, AppError, ErrorKind, FieldError};
 use crate::framework::Feature;
 use crate::framework::demonstration::ClockPolicy;
-use axum::body::Body;
 use axum::extract::multipart::{Field, Multipart};
 use axum::extract::{FromRequest as _, Request, State};
-use axum::http::HeaderMap;
-use axum::http::header::{CONTENT_ENCODING, CONTENT_LENGTH, CONTENT_TYPE};
+use axum::http::header::{CONTENT_ENCODING, CONTENT_TYPE};
 use axum::response::Response;
-use futures_util::StreamExt as _;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::sync::Arc;
@@ -88,38 +85,18 @@ async fn receive(
     if let Some(encoding) = headers.get(CONTENT_ENCODING) {
         return Err(unsupported(encoding.to_str().unwrap_or(""), "the body without content encoding"));
     }
-    if content_length(headers).is_some_and(|length| length > limit as u64) {
-        return Err(too_large(limit).into());
-    }
     let form = headers.get(CONTENT_TYPE).is_some_and(|v| v.as_bytes().starts_with(b"multipart/"));
     let files = if form {
         let form = Multipart::from_request(request, &()).await;
-        let form = form.map_err(|rejection| unreadable(&rejection.body_text()))?;
+        let form = form.map_err(|rejection| body::unreadable(&rejection.body_text()))?;
         files(form, &mut parameters, limit).await?
     } else {
         let file_name = parameters.file_name.clone().or_else(|| parameters.name.clone());
-        let bytes = bytes(request.into_body(), limit).await?;
+        let bytes = body::read(request, limit).await?;
         vec![UploadFile { file_name: file_name.unwrap_or_else(|| "demonstration".to_owned()), bytes }]
     };
     let options = options(&parameters)?;
     Ok(UploadDemonstration { name: parameters.name, files, options })
-}
-
-fn content_length(headers: &HeaderMap) -> Option<u64> {
-    headers.get(CONTENT_LENGTH)?.to_str().ok()?.parse().ok()
-}
-
-async fn bytes(body: Body, limit: usize) -> Result<Vec<u8>, AppError> {
-    let mut stream = body.into_data_stream();
-    let mut bytes = Vec::new();
-    while let Some(chunk) = stream.next().await {
-        let chunk = chunk.map_err(|error| unreadable(&error.to_string()))?;
-        if bytes.len() + chunk.len() > limit {
-            return Err(too_large(limit));
-        }
-        bytes.extend_from_slice(&chunk);
-    }
-    Ok(bytes)
 }
 
 async fn files(
@@ -129,18 +106,18 @@ async fn files(
 ) -> Result<Vec<UploadFile>, AppError> {
     let mut files: Vec<UploadFile> = Vec::new();
     let mut left = limit;
-    while let Some(field) = form.next_field().await.map_err(|error| unreadable(&error.body_text()))? {
+    while let Some(field) = form.next_field().await.map_err(|error| body::unreadable(&error.body_text()))? {
         if let Some(file_name) = field.file_name().map(str::to_owned) {
             if files.len() == MAX_FILES {
                 let message = format!("an upload holds at most {MAX_FILES} files");
                 return Err(AppError::new(ErrorKind::TooLarge, "too_many_files", message));
             }
-            let bytes = field_bytes(field, left).await?.ok_or_else(|| too_large(limit))?;
+            let bytes = field_bytes(field, left).await?.ok_or_else(|| body::too_large(limit))?;
             left -= bytes.len();
             files.push(UploadFile { file_name, bytes });
         } else {
             let name = field.name().unwrap_or("").to_owned();
-            let bytes = field_bytes(field, MAX_FIELD).await?.ok_or_else(|| too_large(MAX_FIELD))?;
+            let bytes = field_bytes(field, MAX_FIELD).await?.ok_or_else(|| body::too_large(MAX_FIELD))?;
             let text = String::from_utf8(bytes).map_err(|_| field_error(&name, "not_utf8", "the field is no UTF-8"))?;
             *parameter(parameters, &name)? = Some(text);
         }
@@ -151,7 +128,7 @@ async fn files(
 /// The field's bytes, or `None` when there are more than `limit`.
 async fn field_bytes(mut field: Field<'_>, limit: usize) -> Result<Option<Vec<u8>>, AppError> {
     let mut bytes = Vec::new();
-    while let Some(chunk) = field.chunk().await.map_err(|error| unreadable(&error.body_text()))? {
+    while let Some(chunk) = field.chunk().await.map_err(|error| body::unreadable(&error.body_text()))? {
         if bytes.len() + chunk.len() > limit {
             return Ok(None);
         }
@@ -209,18 +186,11 @@ fn field_error(name: &str, code: &str, detail: &str) -> AppError {
     AppError::invalid(vec![FieldError::new(format!("/{name}"), code, detail)])
 }
 
-fn unreadable(cause: &str) -> AppError {
-    AppError::new(ErrorKind::Malformed, "unreadable_body", format!("the body ended early or is malformed: {cause}"))
-}
-
-fn too_large(limit: usize) -> AppError {
-    let message = format!("the upload is larger than the limit of {limit} bytes: split it, or raise the limit");
-    AppError::new(ErrorKind::TooLarge, "body_too_large", message)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use axum::body::Body;
+    use axum::http::header::CONTENT_LENGTH;
 
     async fn read(request: axum::http::request::Builder, body: impl Into<Body>) -> Result<UploadDemonstration, u16> {
         let request = request.uri("/").body(body.into()).unwrap();

@@ -159,7 +159,7 @@ mod tests {
             assert!(triple("/origin_m", &[0.0, value, 0.0]).is_err());
         }
         assert!(triple("/origin_m", &[0.0, 1.0]).is_err());
-        assert_eq!(triple("/origin_m", &[0.0, 1.0, -2.0]).unwrap(), [0.0, 1.0, -2.0]);
+        assert_eq!(format!("{:?}", triple("/origin_m", &[0.0, 1.0, -2.0]).unwrap()), "[0.0, 1.0, -2.0]");
         assert_eq!(metric("/metric", 99).unwrap_err().kind, ErrorKind::Invalid);
     }
 
