@@ -29,7 +29,10 @@ impl GateClosed {
     /// A gate that an error keeps closed.
     pub fn because(error: impl Into<anyhow::Error>) -> Self {
         let error: anyhow::Error = error.into();
-        Self { reason: error.to_string(), source: error.source().map(|cause| anyhow::anyhow!("{cause}")) }
+        let reason = error.to_string();
+        // Some errors tell their cause themselves.
+        let cause = error.source().map(ToString::to_string).filter(|cause| !reason.contains(cause.as_str()));
+        Self { reason, source: cause.map(anyhow::Error::msg) }
     }
 
     /// A gate that stays closed by rule.
