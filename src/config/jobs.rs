@@ -25,9 +25,9 @@ impl Default for JobsConfig {
 
 impl JobsConfig {
     pub(super) fn check(&self) -> Result<(), ConfigError> {
-        within("jobs.workers", self.workers.unwrap_or(1), 1..=1024, "1 to 1024")?;
-        within("jobs.lease_ms", self.lease_ms, 500..=3_600_000, "500 to 3600000")?;
-        within("jobs.heartbeat_ms", self.heartbeat_ms, 50..=self.lease_ms / 3, "50 to a third of jobs.lease_ms")?;
-        within("jobs.checkpoint_ms", self.checkpoint_ms, 10..=60_000, "10 to 60000")
+        within("jobs.workers", self.workers.unwrap_or(1), &(1..=1024), "1 to 1024")?;
+        within("jobs.lease_ms", self.lease_ms, &(500..=3_600_000), "500 to 3600000")?;
+        within("jobs.heartbeat_ms", self.heartbeat_ms, &(50..=self.lease_ms / 3), "50 to a third of jobs.lease_ms")?;
+        within("jobs.checkpoint_ms", self.checkpoint_ms, &(10..=60_000), "10 to 60000")
     }
 }

@@ -33,10 +33,10 @@ impl Default for LimitsConfig {
 
 impl LimitsConfig {
     pub(super) fn check(&self) -> Result<(), ConfigError> {
-        within("limits.upload_bytes", self.upload_bytes, 1 << 10..=1 << 30, "1024 to 1073741824")?;
-        within("limits.body_bytes", self.body_bytes, 1 << 10..=1 << 30, "1024 to 1073741824")?;
-        within("limits.answer_ms", self.answer_ms, 1000..=3_600_000, "1000 to 3600000")?;
-        within("limits.request_head_ms", self.request_head_ms, 100..=600_000, "100 to 600000")?;
-        within("limits.connections", self.connections, 1..=100_000, "1 to 100000")
+        within("limits.upload_bytes", self.upload_bytes, &(1 << 10..=1 << 30), "1024 to 1073741824")?;
+        within("limits.body_bytes", self.body_bytes, &(1 << 10..=1 << 30), "1024 to 1073741824")?;
+        within("limits.answer_ms", self.answer_ms, &(1000..=3_600_000), "1000 to 3600000")?;
+        within("limits.request_head_ms", self.request_head_ms, &(100..=600_000), "100 to 600000")?;
+        within("limits.connections", self.connections, &(1..=100_000), "1 to 100000")
     }
 }

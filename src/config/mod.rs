@@ -89,7 +89,7 @@ impl Config {
 fn within<T: PartialOrd + Copy + std::fmt::Display>(
     key: &'static str,
     value: T,
-    range: std::ops::RangeInclusive<T>,
+    range: &std::ops::RangeInclusive<T>,
     bounds: &'static str,
 ) -> Result<(), ConfigError> {
     if range.contains(&value) {

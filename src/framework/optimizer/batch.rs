@@ -53,6 +53,7 @@ impl Batch {
     }
 
     /// The candidates: id and joints (rad or m).
+    #[must_use]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (u64, &[f64])> {
         self.ids.iter().copied().zip(self.joints.chunks_exact(self.genes))
     }

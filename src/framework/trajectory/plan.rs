@@ -61,8 +61,10 @@ pub fn plan(
         let least_s = duration(&limits, from, to, spec.speed);
         if least_s > 0.0 {
             let steps = (least_s / spec.sample_s).ceil().max(1.0);
-            for step in 1..(steps as u32) {
-                points.push(sample(time_s, least_s, f64::from(step) / steps, from, to));
+            let mut step = 1.0;
+            while step < steps {
+                points.push(sample(time_s, least_s, step / steps, from, to));
+                step += 1.0;
             }
             time_s += least_s;
             points.push(rest(time_s, to, Some(index)));

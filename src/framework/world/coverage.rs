@@ -43,7 +43,7 @@ pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldErr
     for (field, step, count) in
         [("column_step_m", spec.column_step_m, spec.columns), ("row_step_m", spec.row_step_m, spec.rows)]
     {
-        if count > 1 && step == [0.0; 3] {
+        if count > 1 && step.iter().all(|metres| *metres == 0.0) {
             return Err(WorldError::ZeroStep { field, count });
         }
     }

@@ -91,9 +91,9 @@ fn average(parents: &Parents<'_>, child: &mut [f64], _: &mut RandomStream) {
 
 /// Uniform between the parents, each gene by itself; `heuristic` has the same distribution.
 fn flat(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomStream) {
-    for gene in parents.first..child.len() {
+    for (gene, value) in child.iter_mut().enumerate().skip(parents.first) {
         let (low, high) = ordered(parents, gene);
-        child[gene] = rng.between(low, high);
+        *value = rng.between(low, high);
     }
 }
 
@@ -157,19 +157,19 @@ fn local(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomStream) {
 
 /// BLX-0.5: L. J. Eshelman, J. D. Schaffer, "Real-coded genetic algorithms and interval-schemata", FOGA 2 (1993).
 fn blx_alpha(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomStream) {
-    for gene in parents.first..child.len() {
+    for (gene, value) in child.iter_mut().enumerate().skip(parents.first) {
         let (low, high) = ordered(parents, gene);
         let reach = 0.5 * (high - low);
-        child[gene] = rng.between(low - reach, high + reach);
+        *value = rng.between(low - reach, high + reach);
     }
 }
 
 /// BLX with 0.5 beyond p1 and 0.25 beyond p2.
 fn blx_alpha_beta(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomStream) {
-    for gene in parents.first..child.len() {
+    for (gene, value) in child.iter_mut().enumerate().skip(parents.first) {
         let (p1, p2) = (parents.p1[gene], parents.p2[gene]);
         let interval = (p1 - p2).abs();
-        child[gene] = if p1 <= p2 {
+        *value = if p1 <= p2 {
             rng.between(p1 - 0.5 * interval, p2 + 0.25 * interval)
         } else {
             rng.between(p2 - 0.25 * interval, p1 + 0.5 * interval)
