@@ -1,5 +1,7 @@
 //! What a crash, a stop or a pause may not change: black-box tests of a server that is killed while it works.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking, helpers included")]
+
 mod kill;
 mod server;
 mod stop;

@@ -83,7 +83,7 @@ impl Server {
             if ["SUCCEEDED", "FAILED", "CANCELLED"].contains(&view["state"].as_str().unwrap()) {
                 return view;
             }
-            assert!(started.elapsed() < Duration::from_secs(60), "{job} does not end: {view}");
+            assert!(started.elapsed() < Duration::from_mins(1), "{job} does not end: {view}");
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
     }
