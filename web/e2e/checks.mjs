@@ -11,7 +11,7 @@ const pagesOf = (data) => [
   { path: "/jobs", text: "loop" },
   { path: "/jobs/new", text: "Before you start" },
   { path: `/jobs/${data.loopJob.id}`, text: "Succeeded" },
-  { path: `/runs/${data.loopJob.result.runs[0]}`, text: "Goal 1 of" },
+  { path: `/runs/${data.loopJob.result.runs[0]}`, text: "goals reached" },
   { path: `/runs/${data.paintJob.result.runs[0]}`, text: "cells painted" },
   { path: "/demonstrations", text: "loop-1" },
   { path: `/demonstrations/${data.demonstration}`, text: "Findings" },
@@ -82,12 +82,12 @@ async function replay({ browser, server, data }) {
   const time = page.getByRole("slider", { name: "Time in the trajectory" });
   await time.focus();
   await page.keyboard.press("End");
-  await page.getByText(`Goal ${goals} of ${goals}`).waitFor();
+  await page.getByText(`${goals} of ${goals} goals reached`).waitFor();
   await page.keyboard.press("Home");
-  await page.getByText(`Goal 1 of ${goals}`).waitFor();
+  await page.getByText(`0 of ${goals} goals reached`).waitFor();
   await page.getByRole("combobox", { name: "Speed" }).selectOption("4");
   await page.getByRole("button", { name: "Play" }).press("Enter");
-  await page.getByText(`Goal ${goals} of ${goals}`).waitFor({ timeout: 60_000 });
+  await page.getByText(`${goals} of ${goals} goals reached`).waitFor({ timeout: 60_000 });
   await page.getByRole("button", { name: "Play" }).waitFor();
 
   assert.ok((await server.api("GET", `/runs/${data.loopJob.result.runs[0]}`)).trajectory, "the run has a trajectory");

@@ -12,9 +12,9 @@ export async function pictures({ browser, server, data, screenshots }) {
   mkdirSync(FOLDER, { recursive: true });
   const page = await openPage(browser, { width: 1280, height: 820 });
   await signIn(page, server);
-  const job = await startSlowJob(server, data, 1200);
+  const job = await startSlowJob(server, data, 700);
   await page.goto(`${server.url}/jobs/${job.id}`);
-  await page.locator(".rung.done").nth(3).waitFor();
+  await page.locator(".rung.done").nth(3).waitFor({ timeout: 60_000 });
   await page.screenshot({ path: `${FOLDER}dashboard.png` });
   await server.api("POST", `/jobs/${job.id}:cancel`);
 

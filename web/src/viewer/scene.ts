@@ -7,7 +7,7 @@ import { token } from "../charts/theme";
 export type View = "perspective" | "front" | "side" | "top";
 
 const DIRECTIONS: Record<View, readonly [number, number, number]> = {
-  perspective: [1, -1.1, 0.7],
+  perspective: [-0.6, -1.2, 0.55],
   front: [1, 0, 0.001],
   side: [0, -1, 0.001],
   top: [-0.001, 0, 1],
@@ -74,7 +74,7 @@ export class Stage {
     const narrow = Math.min(1, this.camera.aspect);
     const distance = sphere.radius / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2)) / narrow;
     const direction = new THREE.Vector3(...DIRECTIONS[view]).normalize();
-    this.camera.position.copy(sphere.center).addScaledVector(direction, distance * 0.92);
+    this.camera.position.copy(sphere.center).addScaledVector(direction, distance * 0.82);
     this.controls.target.copy(sphere.center);
     this.controls.update();
     this.draw();

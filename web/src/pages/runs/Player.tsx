@@ -9,6 +9,9 @@ interface Props {
   marks: readonly number[];
 }
 
+/** Steps of the scrubber; whole ones, so that its end is the trajectory's end exactly. */
+const STEPS = 1000;
+
 /** Play, pause, scrub, speed; the ticks are the goals. */
 export function Player({ play, durationS, marks }: Props) {
   const seconds = (time: number) => `${formatNumber(time, 3)} s`;
@@ -23,10 +26,10 @@ export function Player({ play, durationS, marks }: Props) {
           aria-label="Time in the trajectory"
           aria-valuetext={seconds(play.timeS)}
           min={0}
-          max={durationS}
-          step={durationS / 1000}
-          value={play.timeS}
-          onChange={(event) => play.seek(event.currentTarget.valueAsNumber)}
+          max={STEPS}
+          step={1}
+          value={Math.round((STEPS * play.timeS) / durationS)}
+          onChange={(event) => play.seek((durationS * event.currentTarget.valueAsNumber) / STEPS)}
         />
         <div className="ticks" aria-hidden="true">
           {marks.map((mark, index) => (

@@ -86,7 +86,7 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
       <Player play={play} durationS={trajectory.duration_s} marks={trajectory.goal_times_s} />
       <p className="row between small" style={{ marginTop: 8 }}>
         <span>
-          Goal {reached} of {goals.goals.length}
+          {reached} of {goals.goals.length} goals reached
           {wall !== undefined && ` · ${cells} of ${wall.columns * wall.rows} cells painted`}
         </span>
         {last !== undefined && (
