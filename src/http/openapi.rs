@@ -55,7 +55,7 @@ pub fn start<S: Clone + Send + Sync + 'static>() -> OpenApiRouter<S> {
 
 /// Rows of the URL table.
 pub trait Table<S> {
-    /// Adds the routes of one path, documented as they are and, if they end in `:verb`, routed as [`verbs`] says.
+    /// Adds the routes of one path, documented as they are and, if they end in `:verb`, routed as `verbs.rs` says.
     #[must_use]
     fn at(self, routes: UtoipaMethodRouter<S>) -> Self;
 }
