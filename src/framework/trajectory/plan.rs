@@ -15,6 +15,8 @@ pub const DEFAULT_VELOCITY: f64 = 0.5;
 pub const DEFAULT_ACCELERATION: f64 = 2.0;
 /// Two poses nearer than this in every joint are one (rad or m).
 const SAME_POSE: f64 = 1e-12;
+/// Most samples of a trajectory.
+const MAX_SAMPLES: f64 = 1e6;
 
 /// How waypoints are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -61,10 +63,12 @@ pub fn plan(
         let least_s = duration(&limits, from, to, spec.speed);
         if least_s > 0.0 {
             let steps = (least_s / spec.sample_s).ceil().max(1.0);
-            let mut step = 1.0;
-            while step < steps {
+            if steps + points.len() as f64 > MAX_SAMPLES {
+                let expected = "the trajectory would have more than a million samples; give a longer sample time";
+                return Err(TrajectoryError::Value { field: "sample_s", value: spec.sample_s, expected });
+            }
+            for step in (1_u32..).map(f64::from).take_while(|&step| step < steps) {
                 points.push(sample(time_s, least_s, step / steps, from, to));
-                step += 1.0;
             }
             time_s += least_s;
             points.push(rest(time_s, to, Some(index)));

@@ -70,6 +70,9 @@ fn refuses_shapes_and_parameters() {
     assert!(matches!(plan(&chain, &[0.0; 2], &[vec![0.0; 3]], &default), Err(TrajectoryError::Ragged { .. })));
     let nan = plan(&chain, &[0.0; 3], &[vec![0.0, f64::NAN, 0.0]], &default);
     assert!(matches!(nan, Err(TrajectoryError::NonFinite { .. })));
+    let slow = PlanSpec { sample_s: 1e-4, speed: 1e-3, ..default };
+    let far = plan(&chain, &[0.0; 3], &[vec![1.7; 3], vec![0.0; 3]], &slow).unwrap_err().to_string();
+    assert!(far.contains("million samples"), "{far}");
     let fast = PlanSpec { speed: 1.5, ..default };
     assert!(matches!(plan(&chain, &[0.0; 3], &[vec![0.0; 3]], &fast), Err(TrajectoryError::Value { .. })));
 }

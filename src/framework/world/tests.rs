@@ -58,10 +58,10 @@ proptest! {
             world.observe(pose, &mut looked);
             world.observe(pose, &mut looked);
             world.commit(pose, &mut seen);
-            prop_assert_eq!(seen, looked);
+            prop_assert_eq!(seen[0].to_bits(), looked[0].to_bits());
             prop_assert!(seen[0] >= before && seen[0] <= 100.0);
             let cells = world.cells().unwrap().iter().map(|w| w.count_ones()).sum::<u32>();
-            prop_assert_eq!(f64::from(cells) * 6.25, seen[0]);
+            prop_assert!((f64::from(cells) * 6.25 - seen[0]).abs() < 1e-12);
             before = seen[0];
         }
         world.reset();

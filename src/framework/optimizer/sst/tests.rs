@@ -192,7 +192,7 @@ fn failed_trials_never_win() {
     let best = sst.best().unwrap();
     assert_eq!((best.fitness, best.observation, best.provenance), (1e9, &[3.0][..], Provenance::Real));
     sst.tell(1, Outcome::Observed { fitness: 0.0, observation: &[0.0], provenance: Provenance::Real });
-    assert_eq!(sst.best().unwrap().fitness, 1e9, "news of a candidate told before is ignored");
+    assert_eq!(sst.best().unwrap().fitness.to_bits(), 1e9_f64.to_bits(), "news of a candidate told before is ignored");
 }
 
 #[test]
