@@ -25,7 +25,7 @@ COPY --from=build /src/target/dist/cgda /usr/local/bin/cgda
 USER 10001
 VOLUME ["/var/lib/cgda"]
 EXPOSE 8080
-ENV CGDA_DATA_DIR=/var/lib/cgda CGDA_LISTEN=0.0.0.0:8080
+ENV CGDA_SERVER__DATA_DIR=/var/lib/cgda CGDA_SERVER__LISTEN=0.0.0.0:8080 CGDA_SERVER__ALLOW_REMOTE=true
 HEALTHCHECK --interval=10s --timeout=3s --start-period=20s CMD ["/usr/local/bin/cgda", "healthcheck", "--address", "127.0.0.1:8080"]
 ENTRYPOINT ["/usr/local/bin/cgda"]
 CMD ["serve"]

@@ -99,7 +99,7 @@ impl Server {
         let job = self.post("/api/v1/jobs", &request).await;
         let made = self.ended(job["id"].as_str().unwrap()).await;
         let spec = json!({"free_joints": ["shoulder_pitch", "shoulder_roll", "elbow_pitch"],
-            "fixed": {"wrist_yaw": -0.785_398_163_397_448_3}});
+            "fixed": {"wrist_yaw": -std::f64::consts::FRAC_PI_4}});
         let urdf = include_str!("../../examples/robots/teo_right_arm.urdf");
         let robot = self.post("/api/v1/robots", &json!({"name": "arm", "urdf": urdf, "spec": spec})).await;
         let world = json!({"name": "tool", "spec": {"kind": "tool_position", "unit": "mm"}});

@@ -131,7 +131,7 @@ pub enum TrajectoryError {
     },
 }
 
-/// A trajectory that keeps all limits. Only [`super::plan`] makes one.
+/// A trajectory that keeps all limits. Only [`plan()`](super::plan()) makes one.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct CheckedTrajectory {
     joints: Vec<String>,

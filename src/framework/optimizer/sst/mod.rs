@@ -8,7 +8,7 @@
 //!
 //! Invariant: `state.waiting` names exactly the individuals without a fitness; a child is bred when none is waiting.
 //!
-//! Source: J. Fernandez-Fernandez et al.'s runs; ECF, D. Jakobovic et al., http://ecf.zemris.fer.hr.
+//! Source: R. Fernandez-Fernandez et al.'s runs; ECF, D. Jakobovic et al., <http://ecf.zemris.fer.hr>.
 
 mod operators;
 mod state;
