@@ -9,7 +9,7 @@ TOOLS := target/tools/bin
 export PATH := $(HOME)/.cargo/bin:$(PATH)
 export CARGO_TERM_COLOR ?= never
 
-.PHONY: help setup setup-test web run test check check-rust check-web check-docs test-rust test-web test-e2e torture bench openapi audit image-lint fmt clean
+.PHONY: help setup setup-test web run test check check-rust check-web check-docs test-rust test-web test-e2e test-examples torture bench openapi audit image-lint fmt clean
 
 help: ## this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 16
@@ -24,7 +24,7 @@ web/node_modules/.package-lock.json: web/package-lock.json
 	cd web && npm ci --no-audit --no-fund --loglevel=error
 	@touch $@
 
-WEB_SOURCES := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
+WEB_SOURCES := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -name schema.d.ts -o -type f -print)
 
 web/dist/index.html: web/node_modules/.package-lock.json $(WEB_SOURCES)
 	cd web && npm run --silent build
@@ -42,6 +42,7 @@ test: setup-test ## every gate and every test
 	@$(MAKE) --no-print-directory check
 	@$(MAKE) --no-print-directory test-web
 	@$(MAKE) --no-print-directory test-rust
+	@$(MAKE) --no-print-directory test-examples
 	@$(MAKE) --no-print-directory test-e2e
 
 check: check-rust check-web image-lint ## formatting, lints, documentation, dependencies
@@ -68,6 +69,10 @@ test-web: web/node_modules/.package-lock.json ## unit tests of the dashboard
 test-e2e: web/dist/index.html ## the dashboard in a real browser against a real server
 	cargo build --locked --quiet
 	cd web && npm run --silent test:e2e
+
+test-examples: ## the client scripts of examples/ over REST and gRPC
+	cargo build --locked --quiet
+	tests/examples.sh target/debug/cgda $(TOOLS)/python
 
 torture: setup-test ## the slow suites: repeated kills, long runs
 	cargo test --locked --release -- --ignored

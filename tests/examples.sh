@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Runs the shipped client scripts against a real server and compares the digests: the same job and seed over REST and
+# over gRPC must give the same bits. Usage: tests/examples.sh CGDA_BINARY PYTHON
+set -euo pipefail
+cd "$(dirname "$0")/.."
+cgda=$1 python=$2
+work=$(mktemp -d)
+"$cgda" serve --data-dir "$work/data" --listen 127.0.0.1:0 >"$work/ready" 2>"$work/log" &
+server=$!
+trap 'kill $server 2>/dev/null; wait $server 2>/dev/null; rm -rf "$work"' EXIT
+for _ in $(seq 200); do
+  [ -s "$work/ready" ] && break
+  sleep 0.1
+done
+address=$(grep -oE 'http=[^ ]+' "$work/ready" | cut -d= -f2)
+token=$(grep -oE 'token=[^ ]+' "$work/ready" | cut -d= -f2)
+rest=$(examples/rest_main_job.sh "$address" "$token" "$work" 2>"$work/rest.err" | tail -n 1) || { cat "$work/rest.err" "$work/log" >&2; exit 1; }
+grpc=$("$python" examples/grpc_main_job.py "${address#http://}" "$token" 2>"$work/grpc.err" | tail -n 1) || { cat "$work/grpc.err" "$work/log" >&2; exit 1; }
+if [ -z "$rest" ] || [ "$rest" != "$grpc" ]; then
+  echo "REST gave digest '$rest', gRPC '$grpc'" >&2
+  exit 1
+fi
+echo "examples over REST and gRPC: digest $rest"
