@@ -118,6 +118,7 @@ async fn same_job(http: &Http, job: &proto::Job) {
     assert_eq!(view["name"], job.name);
     assert_eq!(view["attempt"], job.attempt);
     assert_eq!(view["progress"]["total_evaluations"], job.progress.as_ref().unwrap().total_evaluations);
+    assert_eq!(view["progress"]["goal_evaluations"], job.progress.as_ref().unwrap().goal_evaluations);
     assert_eq!(view["result"]["runs"], json!(job.result.as_ref().unwrap().runs));
     assert_eq!(view["request"]["seed"], 21);
     assert_eq!(format!("JOB_STATE_{}", view["state"].as_str().unwrap()), job.state().as_str_name());
@@ -130,6 +131,15 @@ async fn same_trajectory(http: &Http, grpc: &mut Grpc, run: &str) {
     let head = grpc.trajectories.get_trajectory(proto::GetTrajectoryRequest { id: id.clone() }).await.unwrap();
     assert_eq!(json!(head.get_ref().joint_names), view["joint_names"]);
     assert_eq!(head.get_ref().sha256, view["sha256"].as_str().unwrap());
+    assert_eq!(json!(head.get_ref().fixed_joints), view["fixed_joints"]);
+    assert_eq!(json!(head.get_ref().notes), view["notes"]);
+    let tightest = |t: &proto::TightestLimit| {
+        let kind = t.kind().as_str_name().trim_start_matches("LIMIT_KIND_").to_lowercase();
+        json!({"kind": kind, "joint": t.joint, "time_s": t.time_s, "value": t.value, "limit": t.limit, "ratio": t.ratio})
+    };
+    let found: Vec<Value> = head.get_ref().tightest.iter().map(tightest).collect();
+    assert!(!found.is_empty());
+    assert_eq!(json!(found), view["tightest"]);
     let request = proto::StreamTrajectoryRequest { id, from_index: 1, batch: 3 };
     let mut chunks = grpc.trajectories.stream_trajectory(request).await.unwrap().into_inner();
     let mut points = Vec::new();
@@ -178,7 +188,20 @@ async fn recognition_answers_alike_and_online_as_at_once() {
     let at_once = grpc.recognition.recognize(request).await.unwrap().into_inner();
     assert_eq!(last.as_ref(), Some(&at_once));
     assert_eq!(at_once.recognized.as_ref(), Some(&made.action));
-    assert_eq!(json!(at_once.candidates[0].discrepancy), answer["candidates"][0]["discrepancy"]);
+    let (candidate, expected) = (&at_once.candidates[0], &answer["candidates"][0]);
+    assert_eq!(json!(candidate.discrepancy), expected["discrepancy"]);
+    assert_eq!(json!(candidate.relative_discrepancy), expected["relative_discrepancy"]);
+    assert_eq!(json!(candidate.within_threshold), expected["within_threshold"]);
+
+    let other = proto::Feature { name: "x".to_owned(), unit: "furlong".to_owned() };
+    let rows = proto::ObservedRows { features: vec![other], rows: vec![vec![1.0].into()] };
+    let observed = Some(proto::recognize_request::Observed::Rows(rows));
+    let request = proto::RecognizeRequest { question: None, observed };
+    let none = grpc.recognition.recognize(request).await.unwrap().into_inner();
+    assert_eq!((none.recognized, none.candidates.len()), (None, 0));
+    let reason = &none.incomparable[0];
+    assert_eq!((reason.action.as_str(), reason.observed_unit.as_deref()), (made.action.as_str(), Some("furlong")));
+    assert_eq!(reason.feature.as_ref().unwrap().unit, "mm");
 }
 
 #[tokio::test]

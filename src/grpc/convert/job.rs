@@ -79,6 +79,7 @@ impl From<JobProgress> for proto::JobProgress {
             goal_index: progress.goal_index,
             goals: progress.goals,
             evaluations: progress.evaluations,
+            goal_evaluations: progress.goal_evaluations,
             total_evaluations: progress.total_evaluations,
             discrepancy: progress.discrepancy,
             finished_goals: all(progress.finished_goals),

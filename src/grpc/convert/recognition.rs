@@ -2,7 +2,9 @@
 
 use super::{all, finite_or_none, metric, reference, references, required, rows};
 use crate::app::AppError;
-use crate::app::recognitions::{Observed, RecognitionCandidate, RecognitionView, RecognizeRequest};
+use crate::app::recognitions::{
+    IncomparableCandidate, Observed, RecognitionCandidate, RecognitionView, RecognizeRequest,
+};
 use crate::framework::recognition::FeatureDiscrepancy;
 use crate::grpc::proto;
 use proto::recognize_request::Observed as Message;
@@ -37,6 +39,18 @@ impl From<RecognitionView> for proto::Recognition {
             metric: proto::Metric::from(view.metric) as i32,
             threshold: Some(view.threshold),
             candidates: all(view.candidates),
+            incomparable: all(view.incomparable),
+        }
+    }
+}
+
+impl From<IncomparableCandidate> for proto::IncomparableCandidate {
+    fn from(candidate: IncomparableCandidate) -> Self {
+        Self {
+            action: candidate.action.into(),
+            name: candidate.name,
+            feature: Some(candidate.feature.into()),
+            observed_unit: candidate.observed_unit,
         }
     }
 }
@@ -47,6 +61,8 @@ impl From<RecognitionCandidate> for proto::RecognitionCandidate {
             action: candidate.action.into(),
             name: candidate.name,
             discrepancy: candidate.discrepancy,
+            relative_discrepancy: candidate.relative_discrepancy,
+            within_threshold: candidate.within_threshold,
             per_feature: all(candidate.per_feature),
             path: candidate.path.into_iter().map(|[sample, goal]| proto::PathStep { sample, goal }).collect(),
         }

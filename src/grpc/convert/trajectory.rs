@@ -1,6 +1,7 @@
 //! Trajectories.
 
 use crate::app::trajectories::{TrajectoryPoint, TrajectoryView};
+use crate::framework::trajectory::{LimitKind, Tightest};
 use crate::grpc::proto;
 
 /// The head and the points.
@@ -11,9 +12,12 @@ pub fn split(view: TrajectoryView) -> (proto::Trajectory, Vec<TrajectoryPoint>) 
         job: view.job.into(),
         robot: view.robot.into(),
         joint_names: view.joint_names,
+        fixed_joints: view.fixed_joints.into_iter().collect(),
         duration_s: view.duration_s,
         points: view.points.len() as u64,
         goal_times_s: view.goal_times_s,
+        tightest: super::all(view.tightest),
+        notes: view.notes,
         sha256: view.sha256,
         created_at_ms: view.created_at.0,
     };
@@ -38,6 +42,24 @@ impl From<TrajectoryPoint> for proto::TrajectoryPoint {
             positions: point.positions,
             velocities: point.velocities,
             accelerations: point.accelerations,
+        }
+    }
+}
+
+impl From<Tightest> for proto::TightestLimit {
+    fn from(tightest: Tightest) -> Self {
+        let kind = match tightest.kind {
+            LimitKind::Position => proto::LimitKind::Position,
+            LimitKind::Velocity => proto::LimitKind::Velocity,
+            LimitKind::Acceleration => proto::LimitKind::Acceleration,
+        };
+        Self {
+            kind: kind as i32,
+            joint: tightest.joint,
+            time_s: tightest.time_s,
+            value: tightest.value,
+            limit: tightest.limit,
+            ratio: tightest.ratio,
         }
     }
 }
