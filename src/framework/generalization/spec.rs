@@ -68,13 +68,13 @@ pub enum GeneralizeError {
     #[error("no demonstration to generalize: give at least one")]
     NoDemonstration,
     /// T_min is not a positive finite time.
-    #[error("t_min_s is {t_min_s} s: give a positive time of one goal")]
+    #[error("t_min_s is {t_min_s:?} s: give a positive time of one goal")]
     Period {
         /// As asked for.
         t_min_s: f64,
     },
     /// T_min is longer than the demonstrations.
-    #[error("t_min_s {t_min_s} s leaves no goal in a mean duration of {mean_duration_s} s: give at most that")]
+    #[error("t_min_s {t_min_s:?} s leaves no goal in a mean duration of {mean_duration_s} s: give at most that")]
     NoGoal {
         /// As asked for.
         t_min_s: f64,
@@ -82,7 +82,7 @@ pub enum GeneralizeError {
         mean_duration_s: f64,
     },
     /// T_min is far shorter than any use.
-    #[error("t_min_s {t_min_s} s makes {goals} goals, more than {limit}: give a longer time of one goal")]
+    #[error("t_min_s {t_min_s:?} s makes {goals:e} goals, more than {limit}: give a longer time of one goal")]
     TooManyGoals {
         /// As asked for.
         t_min_s: f64,

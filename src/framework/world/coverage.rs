@@ -7,6 +7,8 @@ use nalgebra::Vector3;
 
 /// Most cells a surface may have.
 const MAX_CELLS: u64 = 1 << 20;
+/// Largest coordinate, step and reach, metres.
+const MAX_LENGTH_M: f64 = 1e4;
 
 /// Feature `painted`, %. Cells are bits, row-major.
 #[derive(Debug, Clone)]
@@ -24,11 +26,14 @@ pub(super) fn feature() -> Feature {
     Feature::new("painted", "%")
 }
 
-/// Cell centres in the base frame, row-major.
+/// Whether a surface can be built, without building it.
 ///
 /// # Errors
-/// [`WorldError`] for a grid that is empty, too large or degenerate.
-pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldError> {
+/// [`WorldError`] for a grid that is empty, too large, degenerate or beyond any robot, and for a tool without reach.
+pub(super) fn check(spec: &CoverageSpec) -> Result<(), WorldError> {
+    if !(spec.radius_m > 0.0 && spec.radius_m <= MAX_LENGTH_M) {
+        return Err(WorldError::Radius { found: spec.radius_m, limit: MAX_LENGTH_M });
+    }
     let cells = u64::from(spec.columns) * u64::from(spec.rows);
     if cells == 0 || cells > MAX_CELLS {
         return Err(WorldError::Cells { columns: spec.columns, rows: spec.rows, cells, limit: MAX_CELLS });
@@ -36,8 +41,8 @@ pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldErr
     for (field, vector) in
         [("origin_m", spec.origin_m), ("column_step_m", spec.column_step_m), ("row_step_m", spec.row_step_m)]
     {
-        if let Some(&value) = vector.iter().find(|v| !v.is_finite()) {
-            return Err(WorldError::NonFinite { field, value });
+        if let Some(&value) = vector.iter().find(|v| !v.is_finite() || v.abs() > MAX_LENGTH_M) {
+            return Err(WorldError::Length { field, value, limit: MAX_LENGTH_M });
         }
     }
     for (field, step, count) in
@@ -47,6 +52,15 @@ pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldErr
             return Err(WorldError::ZeroStep { field, count });
         }
     }
+    Ok(())
+}
+
+/// Cell centres in the base frame, row-major.
+///
+/// # Errors
+/// As [`check`].
+pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldError> {
+    check(spec)?;
     let [origin, column, row] = [spec.origin_m, spec.column_step_m, spec.row_step_m].map(Vector3::from);
     Ok((0..spec.rows)
         .flat_map(|r| (0..spec.columns).map(move |c| origin + row * f64::from(r) + column * f64::from(c)))
@@ -55,9 +69,6 @@ pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldErr
 
 impl Coverage {
     pub(super) fn new(spec: &CoverageSpec, chain: &Chain) -> Result<Self, WorldError> {
-        if !(spec.radius_m.is_finite() && spec.radius_m > 0.0) {
-            return Err(WorldError::Radius { found: spec.radius_m });
-        }
         let centres_m = centres(spec)?;
         Ok(Self {
             chain: chain.clone(),

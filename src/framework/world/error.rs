@@ -22,18 +22,22 @@ pub enum WorldError {
         limit: u64,
     },
     /// A tool without reach.
-    #[error("radius_m is {found}: give a finite reach above 0 m")]
+    #[error("radius_m is {found:?}: give a reach above 0 m and of at most {limit} m")]
     Radius {
         /// The radius given.
         found: f64,
+        /// Largest reach.
+        limit: f64,
     },
-    /// A coordinate that is NaN or infinite.
-    #[error("{field} holds {value}: give finite metres")]
-    NonFinite {
+    /// A coordinate that is no number or beyond any robot.
+    #[error("{field} holds {value:?}: give metres, at most {limit} either way")]
+    Length {
         /// The field.
         field: &'static str,
         /// The value.
         value: f64,
+        /// Largest magnitude.
+        limit: f64,
     },
     /// All cells of a row or column at one place.
     #[error("{field} is zero for {count} cells: they would lie on one another")]

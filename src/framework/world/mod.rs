@@ -52,10 +52,13 @@ pub fn build(spec: &WorldSpec, chain: &Chain) -> Result<Box<dyn World>, WorldErr
 /// The features a world of that description shows, without building it.
 ///
 /// # Errors
-/// [`WorldError`] for an unknown unit.
+/// [`WorldError`] wherever [`build`] would refuse the description.
 pub fn features(spec: &WorldSpec) -> Result<Vec<Feature>, WorldError> {
     match spec {
         WorldSpec::ToolPosition(spec) => Ok(tool_position::features(spec)?.to_vec()),
-        WorldSpec::Coverage(_) => Ok(vec![coverage::feature()]),
+        WorldSpec::Coverage(spec) => {
+            coverage::check(spec)?;
+            Ok(vec![coverage::feature()])
+        }
     }
 }
