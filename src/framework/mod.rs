@@ -12,6 +12,7 @@ pub mod execution;
 pub mod feature;
 pub mod generalization;
 pub mod job;
+mod name;
 pub mod optimizer;
 pub mod preset;
 pub mod recognition;
@@ -20,3 +21,4 @@ pub mod trajectory;
 pub mod world;
 
 pub use feature::Feature;
+pub use name::is_hidden;

@@ -3,6 +3,7 @@
 //!
 //! Invariants: each gene has finite limits `lower <= upper`; `steps` are ordered base to tip and each names a gene.
 
+use super::check::MAX_VALUE;
 use super::error::ChainError;
 use super::model::{JointKind, RobotModel};
 use super::spec::RobotSpec;
@@ -85,9 +86,10 @@ impl Chain {
         for &joint in movable.iter().filter(|j| !free.contains(j)) {
             held.insert(joint, held_value(model, spec, joint)?);
         }
-        if let Some(&value) = spec.tool_offset_m.iter().find(|v| !v.is_finite()) {
+        if let Some(&value) = spec.tool_offset_m.iter().find(|v| !v.is_finite() || v.abs() > MAX_VALUE) {
             let joint = model.links()[tip].clone();
-            return Err(ChainError::Value { role: "tool_offset_m", joint, value, expected: "give metres" });
+            let expected = "give metres, at most 1e6 either way";
+            return Err(ChainError::Value { role: "tool_offset_m", joint, value, expected });
         }
         let mut chain = Self {
             base_link: model.links()[base].clone(),
@@ -277,8 +279,8 @@ fn free_joints(model: &RobotModel, spec: &RobotSpec, movable: &[usize]) -> Resul
 fn position_limits(model: &RobotModel, spec: &RobotSpec, joint: usize) -> Result<Option<[f64; 2]>, ChainError> {
     let joint = &model.joints()[joint];
     if let Some(&[lower, upper]) = spec.limits.get(&joint.name) {
-        if let Some(value) = [lower, upper].into_iter().find(|v| !v.is_finite()) {
-            let expected = "give finite limits";
+        if let Some(value) = [lower, upper].into_iter().find(|v| !v.is_finite() || v.abs() > MAX_VALUE) {
+            let expected = "give limits of at most 1e6 either way";
             return Err(ChainError::Value { role: "limits", joint: joint.name.clone(), value, expected });
         }
         if lower > upper {
@@ -296,8 +298,8 @@ fn held_value(model: &RobotModel, spec: &RobotSpec, joint: usize) -> Result<f64,
     let Some(&value) = spec.fixed.get(name) else {
         return Ok(limits.map_or(0.0, |[lower, upper]| 0.0_f64.clamp(lower, upper)));
     };
-    if !value.is_finite() {
-        let expected = "give rad or m";
+    if !value.is_finite() || value.abs() > MAX_VALUE {
+        let expected = "give rad or m, at most 1e6 either way";
         return Err(ChainError::Value { role: "fixed", joint: name.clone(), value, expected });
     }
     match limits {

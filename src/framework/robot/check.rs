@@ -4,6 +4,7 @@
 //! former are errors with the joint's name and the latter is tolerated, so that such a robot can still be looked at.
 
 use super::error::ModelError;
+use crate::framework::is_hidden;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,6 +12,10 @@ use std::collections::{BTreeMap, BTreeSet};
 pub const MAX_LINKS: usize = 256;
 /// Most XML nodes a URDF may have.
 pub const MAX_NODES: u32 = 100_000;
+/// Most characters of a link's or joint's name.
+const MAX_NAME: usize = 128;
+/// Largest position, length or mimic factor (rad, m, 1): what is beyond it would overflow in kinematics.
+pub(super) const MAX_VALUE: f64 = 1e6;
 
 const TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
@@ -54,6 +59,7 @@ pub(super) fn check(urdf: &str) -> Result<Checked, ModelError> {
             name: String::new(),
             missing: "name",
         })?;
+        check_name("joint", name)?;
         let (joint, limits) = read_joint(node, name, &mut insertions)?;
         if joints.insert(name.to_owned(), joint).is_some() {
             return Err(ModelError::Duplicate { element: "joint", name: name.to_owned() });
@@ -74,6 +80,15 @@ fn children<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Ite
     node.children().filter(move |c| c.is_element() && c.tag_name().name() == name)
 }
 
+fn check_name(element: &'static str, name: &str) -> Result<(), ModelError> {
+    let length = name.chars().count();
+    if length > MAX_NAME || name.chars().any(is_hidden) {
+        let begin = name.chars().take(16).collect();
+        return Err(ModelError::Name { element, begin, length, limit: MAX_NAME });
+    }
+    Ok(())
+}
+
 fn read_links(robot: Node<'_, '_>) -> Result<BTreeSet<String>, ModelError> {
     let mut links = BTreeSet::new();
     let mut found = 0;
@@ -84,6 +99,7 @@ fn read_links(robot: Node<'_, '_>) -> Result<BTreeSet<String>, ModelError> {
             name: String::new(),
             missing: "name",
         })?;
+        check_name("link", name)?;
         if !links.insert(name.to_owned()) {
             return Err(ModelError::Duplicate { element: "link", name: name.to_owned() });
         }
@@ -101,7 +117,7 @@ fn read_joint(node: Node<'_, '_>, name: &str, insertions: &mut Vec<usize>) -> Re
     let missing = |what| ModelError::Missing { element: "joint", name: name.to_owned(), missing: what };
     let kind = node.attribute("type").ok_or_else(|| missing("type"))?;
     if !TYPES.contains(&kind) {
-        return Err(ModelError::JointType { joint: name.to_owned(), found: kind.to_owned() });
+        return Err(ModelError::JointType { joint: name.to_owned(), found: excerpt(kind) });
     }
     let end = |tag, what| {
         children(node, tag).next().and_then(|c| c.attribute("link")).map(str::to_owned).ok_or_else(|| missing(what))
@@ -123,7 +139,7 @@ fn read_joint(node: Node<'_, '_>, name: &str, insertions: &mut Vec<usize>) -> Re
     let mut limits = Declared::default();
     if let Some(limit) = children(node, "limit").next() {
         let value = |attribute: &'static str| number(name, attribute, limit.attribute(attribute));
-        let (lower, upper) = (value("lower")?, value("upper")?);
+        let (lower, upper) = (bounded(name, "lower", value("lower")?)?, bounded(name, "upper", value("upper")?)?);
         value("effort")?;
         limits.position = lower.is_some() || upper.is_some();
         let (lower, upper) = (lower.unwrap_or(0.0), upper.unwrap_or(0.0));
@@ -138,8 +154,9 @@ fn read_joint(node: Node<'_, '_>, name: &str, insertions: &mut Vec<usize>) -> Re
     let mimic = match children(node, "mimic").next() {
         None => None,
         Some(mimic) => {
-            number(name, "mimic multiplier", mimic.attribute("multiplier"))?;
-            number(name, "mimic offset", mimic.attribute("offset"))?;
+            for (what, attribute) in [("mimic multiplier", "multiplier"), ("mimic offset", "offset")] {
+                bounded(name, what, number(name, what, mimic.attribute(attribute))?)?;
+            }
             Some(mimic.attribute("joint").ok_or_else(|| missing("mimic joint"))?.to_owned())
         }
     };
@@ -151,9 +168,22 @@ fn number(joint: &str, attribute: &str, text: Option<&str>) -> Result<Option<f64
     text.trim().parse::<f64>().ok().filter(|v| v.is_finite()).map(Some).ok_or_else(|| ModelError::Number {
         joint: joint.to_owned(),
         attribute: attribute.to_owned(),
-        found: text.to_owned(),
+        found: excerpt(text),
         expected: "a finite number",
     })
+}
+
+fn bounded(joint: &str, attribute: &str, value: Option<f64>) -> Result<Option<f64>, ModelError> {
+    if let Some(value) = value.filter(|value| value.abs() > MAX_VALUE) {
+        let joint = joint.to_owned();
+        return Err(ModelError::TooFar { joint, attribute: attribute.to_owned(), value, limit: MAX_VALUE });
+    }
+    Ok(value)
+}
+
+/// As much of a wrong value as an error should repeat.
+fn excerpt(text: &str) -> String {
+    text.chars().take(64).collect()
 }
 
 fn vector(joint: &str, attribute: &str, text: Option<&str>) -> Result<Option<[f64; 3]>, ModelError> {
@@ -161,12 +191,16 @@ fn vector(joint: &str, attribute: &str, text: Option<&str>) -> Result<Option<[f6
     let values: Vec<f64> =
         text.split_whitespace().map_while(|v| v.parse::<f64>().ok().filter(|v| v.is_finite())).collect();
     let complete = values.len() == text.split_whitespace().count();
-    values.try_into().ok().filter(|_| complete).map(Some).ok_or_else(|| ModelError::Number {
+    let values: [f64; 3] = values.try_into().ok().filter(|_| complete).ok_or_else(|| ModelError::Number {
         joint: joint.to_owned(),
         attribute: attribute.to_owned(),
-        found: text.to_owned(),
+        found: excerpt(text),
         expected: "three finite numbers",
-    })
+    })?;
+    for value in values {
+        bounded(joint, attribute, Some(value))?;
+    }
+    Ok(Some(values))
 }
 
 fn check_tree(links: &BTreeSet<String>, joints: &BTreeMap<String, RawJoint>) -> Result<(), ModelError> {

@@ -36,6 +36,32 @@ pub enum ModelError {
         /// What is missing.
         missing: &'static str,
     },
+    /// A name too long or with characters that are not seen.
+    #[error(
+        "the name of a {element} that begins with {begin:?} has {length} characters: give 1 to {limit} visible ones"
+    )]
+    Name {
+        /// `link` or `joint`.
+        element: &'static str,
+        /// Its first characters.
+        begin: String,
+        /// Characters found.
+        length: usize,
+        /// Characters allowed.
+        limit: usize,
+    },
+    /// A length, angle or factor beyond any robot.
+    #[error("joint {joint:?}: {attribute} holds {value:?}, the limit is {limit} either way: correct it or its unit")]
+    TooFar {
+        /// The joint.
+        joint: String,
+        /// The attribute.
+        attribute: String,
+        /// The value.
+        value: f64,
+        /// Largest magnitude.
+        limit: f64,
+    },
     /// A name used twice.
     #[error("two {element}s are named {name:?}: names must be unique")]
     Duplicate {
@@ -210,7 +236,7 @@ pub enum ChainError {
         joint: String,
     },
     /// A number of the description that is not finite or out of range.
-    #[error("{role} of joint {joint:?} is {value}: {expected}")]
+    #[error("{role} of joint {joint:?} is {value:?}: {expected}")]
     Value {
         /// The field.
         role: &'static str,

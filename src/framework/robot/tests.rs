@@ -170,6 +170,29 @@ fn refuses_broken_trees(#[case] from: &str, #[case] to: &str, #[case] told: &str
     assert!(error.contains(told), "{error}");
 }
 
+#[rstest]
+#[case(r#"<axis xyz="1e300 1e300 1e300"/>"#, "axis xyz holds 1e300")]
+#[case(r#"<origin xyz="1e300 0 0"/>"#, "origin xyz holds 1e300")]
+#[case(r#"<limit lower="-1e308" upper="1e308"/>"#, "lower holds -1e308")]
+#[case(r#"<limit lower="-1" upper="1"/><mimic joint="j" multiplier="1e300"/>"#, "mimic multiplier holds 1e300")]
+fn refuses_numbers_that_would_overflow(#[case] inside: &str, #[case] told: &str) {
+    let urdf = format!(
+        r#"<robot name="r"><link name="a"/><link name="b"/>
+        <joint name="j" type="revolute"><parent link="a"/><child link="b"/>{inside}</joint></robot>"#
+    );
+    let error = RobotModel::from_urdf(&urdf).unwrap_err().to_string();
+    assert!(error.contains(told), "{error}");
+}
+
+#[rstest]
+#[case("x".repeat(1 << 20), "1048576 characters")]
+#[case("\u{202e}x".to_owned(), "2 characters")]
+fn refuses_names_without_repeating_them_whole(#[case] name: String, #[case] told: &str) {
+    let error = RobotModel::from_urdf(&format!(r#"<robot name="r"><link name="{name}"/></robot>"#)).unwrap_err();
+    let error = error.to_string();
+    assert!(error.contains(told) && error.len() < 300, "{error}");
+}
+
 #[test]
 fn refuses_more_links_than_allowed() {
     let links = (0..=MAX_LINKS).map(|i| format!(r#"<link name="l{i}"/>"#)).collect::<Vec<_>>().concat();
@@ -189,6 +212,11 @@ fn refuses_more_links_than_allowed() {
     RobotSpec { fixed: BTreeMap::from([("slant".into(), 9.0)]), ..RobotSpec::default() },
     "fixed value 9 of joint \"slant\""
 )]
+#[case::far_limits(
+    RobotSpec { limits: BTreeMap::from([("slant".into(), [-1e308, 1e308])]), ..RobotSpec::default() },
+    "limits of joint \"slant\" is -1e308"
+)]
+#[case::far_tool(RobotSpec { tool_offset_m: [0.0, 1e308, 0.0], ..RobotSpec::default() }, "is 1e308: give metres")]
 #[case::acceleration(
     RobotSpec { acceleration: BTreeMap::from([("slant".into(), 0.0)]), ..RobotSpec::default() },
     "acceleration of joint \"slant\" is 0"
