@@ -26,9 +26,10 @@ pub use error::{AppError, ErrorKind, FieldError};
 pub use page::{DEFAULT_PAGE_SIZE, Keyset, MAX_PAGE_SIZE, Page, PageQuery};
 pub use time::Timestamp;
 
+use crate::framework::is_hidden;
 use ports::{Clock, Events, Ids, Store};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use tokio::sync::watch;
 
 /// What the service is plugged into.
 #[derive(Clone)]
@@ -47,25 +48,31 @@ pub struct Ports {
 #[derive(Clone)]
 pub struct App {
     ports: Ports,
-    ready: Arc<AtomicBool>,
+    ready: watch::Sender<bool>,
 }
 
 impl App {
     /// The service on these ports; not ready yet.
     #[must_use]
     pub fn new(ports: Ports) -> Self {
-        Self { ports, ready: Arc::new(AtomicBool::new(false)) }
+        Self { ports, ready: watch::Sender::new(false) }
     }
 
     /// Whether workers run and the server is not stopping.
     #[must_use]
     pub fn is_ready(&self) -> bool {
-        self.ready.load(Ordering::Acquire)
+        *self.ready.borrow()
+    }
+
+    /// Follows [`App::is_ready`].
+    #[must_use]
+    pub fn readiness(&self) -> watch::Receiver<bool> {
+        self.ready.subscribe()
     }
 
     /// Tells whether workers run; `false` as soon as the server is asked to stop.
     pub fn set_ready(&self, ready: bool) {
-        self.ready.store(ready, Ordering::Release);
+        self.ready.send_replace(ready);
     }
 
     /// What the service is plugged into, for the workers.
@@ -82,12 +89,7 @@ impl App {
 /// A display name without control characters, 1 to 128 characters long.
 fn check_name(pointer: &str, name: &str) -> Result<(), AppError> {
     let length = name.chars().count();
-    // Beside control characters those that turn the direction of text around or are not seen.
-    let hidden = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
-    };
-    if name.trim().is_empty() || length > 128 || name.chars().any(hidden) {
+    if name.trim().is_empty() || length > 128 || name.chars().any(is_hidden) {
         let detail = format!("a name has 1 to 128 visible characters, this one has {length}");
         return Err(AppError::field(pointer, "invalid_name", detail));
     }

@@ -10,6 +10,7 @@ mod auth;
 mod convert;
 mod demonstrations;
 pub mod error;
+mod health;
 mod jobs;
 pub mod proto;
 mod recognition;
@@ -61,7 +62,7 @@ pub fn routes(app: App, access: Access, settings: &Settings) -> Result<Routes, t
     }
     let upload_limit_bytes = settings.upload_limit_bytes;
     let demonstrations = demonstrations::Service { app: app.clone(), upload_limit_bytes };
-    let (_, health) = tonic_health::server::health_reporter();
+    let health = health::server(app.clone());
     let mut routes = Routes::new(health)
         .add_service(guarded!(DemonstrationServiceServer, demonstrations))
         .add_service(guarded!(ActionServiceServer, actions::Service(app.clone())))

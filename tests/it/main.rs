@@ -6,6 +6,7 @@ mod auth;
 mod clients;
 mod errors;
 mod events;
+mod health;
 mod jobs;
 mod main_job;
 mod paging;

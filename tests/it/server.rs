@@ -50,6 +50,12 @@ impl Server {
         Self { child, data, address, token }
     }
 
+    /// SIGTERM; does not wait for the end.
+    pub fn ask_to_stop(&self) {
+        let sent = Command::new("kill").args(["-TERM", &self.child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+    }
+
     /// Ends it as a power cut would and starts it again on the same data.
     pub fn kill_and_restart(mut self) -> Self {
         self.child.kill().unwrap();
