@@ -26,6 +26,8 @@ pub enum ErrorKind {
     Forbidden,
     /// A quota or rate is used up: retry later.
     Exhausted,
+    /// The disk of the data directory is full: reading goes on, nothing is written until space is freed.
+    StorageFull,
     /// The service cannot answer now: retry later.
     Unavailable,
     /// The service is at fault.
@@ -34,7 +36,7 @@ pub enum ErrorKind {
 
 impl ErrorKind {
     /// All kinds, for the edges' table tests.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Malformed,
         Self::Invalid,
         Self::NotFound,
@@ -44,9 +46,16 @@ impl ErrorKind {
         Self::Unauthenticated,
         Self::Forbidden,
         Self::Exhausted,
+        Self::StorageFull,
         Self::Unavailable,
         Self::Internal,
     ];
+
+    /// Whether the same request may do later, without a change by its sender.
+    #[must_use]
+    pub fn may_pass(self) -> bool {
+        matches!(self, Self::Exhausted | Self::StorageFull | Self::Unavailable)
+    }
 }
 
 /// One wrong place in a request.
@@ -79,7 +88,7 @@ pub struct AppError {
     pub message: String,
     /// The wrong places, if the request is at fault.
     pub details: Vec<FieldError>,
-    /// When to try again, for `Exhausted` and `Unavailable`.
+    /// When to try again, where the kind [may pass](ErrorKind::may_pass).
     pub retry_after_s: Option<u32>,
     /// What failed underneath; logged once at the edge, never shown to the caller.
     #[source]
@@ -96,6 +105,8 @@ impl AppError {
     #[must_use]
     pub fn invalid(details: Vec<FieldError>) -> Self {
         let message = match details.as_slice() {
+            // The empty pointer is the whole body.
+            [only] if only.pointer.is_empty() => only.detail.clone(),
             [only] => format!("{}: {}", only.pointer, only.detail),
             many => format!("{} places of the request are wrong", many.len()),
         };
@@ -124,5 +135,16 @@ impl AppError {
     /// The service cannot answer for now.
     pub fn unavailable(code: &'static str, message: impl Into<String>) -> Self {
         Self { retry_after_s: Some(1), ..Self::new(ErrorKind::Unavailable, code, message) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_place_is_told_before_the_detail_and_the_whole_body_has_none() {
+        assert_eq!(AppError::field("/a", "wrong", "a is 1").message, "/a: a is 1");
+        assert_eq!(AppError::field("", "wrong", "the body is a list").message, "the body is a list");
     }
 }

@@ -17,7 +17,7 @@ pub fn code(kind: ErrorKind) -> Code {
         ErrorKind::NotFound => Code::NotFound,
         ErrorKind::Conflict => Code::FailedPrecondition,
         ErrorKind::Precondition => Code::Aborted,
-        ErrorKind::TooLarge | ErrorKind::Exhausted => Code::ResourceExhausted,
+        ErrorKind::TooLarge | ErrorKind::Exhausted | ErrorKind::StorageFull => Code::ResourceExhausted,
         ErrorKind::Unauthenticated => Code::Unauthenticated,
         ErrorKind::Forbidden => Code::PermissionDenied,
         ErrorKind::Unavailable => Code::Unavailable,
@@ -36,7 +36,7 @@ pub fn status(error: AppError) -> Status {
         let violations: Vec<FieldViolation> = error.details.iter().map(violation).collect();
         details.set_bad_request(violations);
     }
-    if matches!(error.kind, ErrorKind::Exhausted | ErrorKind::Unavailable) {
+    if error.kind.may_pass() {
         let seconds = error.retry_after_s.unwrap_or(1);
         details.set_retry_info(Some(Duration::from_secs(u64::from(seconds))));
     }

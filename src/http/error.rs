@@ -17,6 +17,7 @@ pub fn status(kind: ErrorKind) -> StatusCode {
         ErrorKind::Unauthenticated => StatusCode::UNAUTHORIZED,
         ErrorKind::Forbidden => StatusCode::FORBIDDEN,
         ErrorKind::Exhausted => StatusCode::TOO_MANY_REQUESTS,
+        ErrorKind::StorageFull => StatusCode::INSUFFICIENT_STORAGE,
         ErrorKind::Unavailable => StatusCode::SERVICE_UNAVAILABLE,
         ErrorKind::Internal => StatusCode::INTERNAL_SERVER_ERROR,
     }
@@ -24,8 +25,7 @@ pub fn status(kind: ErrorKind) -> StatusCode {
 
 impl From<AppError> for Problem {
     fn from(mut error: AppError) -> Self {
-        let retry = matches!(error.kind, ErrorKind::Exhausted | ErrorKind::Unavailable);
-        error.retry_after_s = if retry { error.retry_after_s.or(Some(1)) } else { None };
+        error.retry_after_s = if error.kind.may_pass() { error.retry_after_s.or(Some(1)) } else { None };
         Self { status: status(error.kind), error }
     }
 }

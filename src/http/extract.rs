@@ -1,7 +1,7 @@
 //! Extractors whose rejections are problems: axum's own answer in plain text.
 
 use super::problem::Problem;
-use super::{Settings, body};
+use super::{Settings, body, strict};
 use crate::app::{AppError, ErrorKind};
 use axum::extract::{FromRef, FromRequest, FromRequestParts, Request};
 use axum::http::header::{CONTENT_TYPE, IF_MATCH};
@@ -125,6 +125,7 @@ fn is_json(media_type: &str) -> bool {
 }
 
 fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, AppError> {
+    strict::check(bytes).map_err(|(path, error)| refusal(pointer(&path), &error))?;
     let mut json = serde_json::Deserializer::from_slice(bytes);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
         let pointer = pointer(error.path());
@@ -183,9 +184,25 @@ mod tests {
         for wrong in ["", "{", "{\"rows\": []} x", "\u{feff}{}"] {
             assert_eq!(parse::<Outer>(wrong.as_bytes()).unwrap_err().kind, ErrorKind::Malformed, "{wrong:?}");
         }
-        assert!(parse::<Outer>(br#"{"rows": [], "rows": []}"#).is_err());
-        let deep = "[".repeat(10_000);
-        assert_eq!(parse::<serde_json::Value>(deep.as_bytes()).unwrap_err().kind, ErrorKind::Malformed);
+    }
+
+    #[test]
+    fn what_could_be_read_in_two_ways_is_refused_at_its_place() {
+        let place = |text: &str| {
+            let error = parse::<serde_json::Value>(text.as_bytes()).unwrap_err();
+            assert_eq!((error.kind, error.details.len()), (ErrorKind::Invalid, 1), "{text}");
+            assert!(!error.message.starts_with(':'), "{}", error.message);
+            error.details[0].pointer.clone()
+        };
+        assert_eq!(place(r#"{"fixed": {"a": 1, "b": {}, "a": 2}}"#), "/fixed");
+        assert_eq!(place(r#"{"rows": [], "rows": []}"#), "");
+        for wrong in ["[]", "null", "1", "-1", "1.5", "true", "\"text\"", "[[{}]]"] {
+            assert_eq!(place(wrong), "");
+        }
+        let nested = |depth: usize| format!("{{\"a\":{}{}}}", "[".repeat(depth), "]".repeat(depth));
+        parse::<serde_json::Value>(nested(strict::MAX_DEPTH - 1).as_bytes()).unwrap();
+        assert!(place(&nested(strict::MAX_DEPTH)).starts_with("/a/0/0"));
+        assert!(place(&nested(100_000)).starts_with("/a/0/0"));
     }
 
     #[test]

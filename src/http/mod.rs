@@ -23,6 +23,7 @@ pub mod problem;
 mod recognitions;
 mod robots;
 mod runs;
+mod strict;
 mod trajectories;
 mod uploads;
 mod verbs;

@@ -22,6 +22,7 @@ fn every_kind_of_error_means_the_same_over_both_protocols() {
         (ErrorKind::Unauthenticated, 401, Code::Unauthenticated),
         (ErrorKind::Forbidden, 403, Code::PermissionDenied),
         (ErrorKind::Exhausted, 429, Code::ResourceExhausted),
+        (ErrorKind::StorageFull, 507, Code::ResourceExhausted),
         (ErrorKind::Unavailable, 503, Code::Unavailable),
         (ErrorKind::Internal, 500, Code::Internal),
     ];
@@ -43,6 +44,15 @@ async fn wrong_requests_are_problems() {
     assert_eq!(wrong.expect_problem(422, "invalid_request").text("/errors/0/pointer"), "/spec/kind");
     let wrong = send(post("/worlds").body(r#"{"name": "w", "specs": {}}"#)).await;
     assert_eq!(wrong.expect_problem(422, "invalid_request").text("/errors/0/pointer"), "/specs");
+    let grid = json!({"kind": "coverage", "origin_m": [0, 0, 0], "column_step_m": [1, 0, 0], "row_step_m": [0, 1, 0],
+        "columns": 65535, "rows": 65535, "radius_m": 1});
+    let huge = http.post("/worlds", &json!({"name": "w", "spec": grid})).await.expect_problem(422, "invalid_request");
+    assert!(huge.text("/detail").contains("4294836225 cells"), "{}", huge.text);
+    let twice = r#"{"name": "r", "urdf": "", "spec": {"fixed": {"j": 1, "j": 2}}}"#;
+    let wrong = send(post("/robots").body(twice)).await.expect_problem(422, "invalid_request");
+    assert_eq!(wrong.text("/errors/0/pointer"), "/spec/fixed");
+    let wrong = send(post("/worlds").body(r#"["w", {"kind": "tool_position", "unit": "mm"}]"#)).await;
+    assert!(wrong.expect_problem(422, "invalid_request").text("/detail").starts_with("the body is a list"));
     let text = http.request(Method::POST, "/worlds").header("content-type", "text/plain").body("x");
     send(text).await.expect_problem(415, "unsupported_media_type");
 

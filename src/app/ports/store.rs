@@ -74,7 +74,7 @@ pub enum StoreError {
         cause: String,
     },
     /// No room left to write.
-    #[error("no space is left to write")]
+    #[error("no space is left to write: nothing was changed; free space on the disk of the data directory")]
     Full,
     /// The store is shut down or cannot be reached.
     #[error("the store does not answer")]
@@ -95,7 +95,7 @@ impl From<StoreError> for AppError {
             StoreError::KeyReused { .. } => Self::new(ErrorKind::Invalid, "idempotency_key_reused", text),
             StoreError::InUse { .. } => Self::new(ErrorKind::Conflict, "in_use", text),
             StoreError::Full => {
-                Self { retry_after_s: Some(10), ..Self::new(ErrorKind::Exhausted, "storage_full", text) }
+                Self { retry_after_s: Some(10), ..Self::new(ErrorKind::StorageFull, "storage_full", text) }
             }
             StoreError::Unavailable => Self::unavailable("store_unavailable", text),
             StoreError::Corrupt { .. } | StoreError::Engine(_) => Self::internal(error),
