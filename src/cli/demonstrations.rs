@@ -5,6 +5,8 @@ use crate::framework::demonstration::{
     known_features, read, read_files,
 };
 use anyhow::{Context as _, bail};
+use std::fs::File;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// How demonstration files are read.
@@ -101,12 +103,15 @@ fn read_path(path: &Path, arguments: &ReadArguments) -> anyhow::Result<Read> {
 }
 
 fn content(path: &Path, options: &ReadOptions) -> anyhow::Result<Vec<u8>> {
-    let size = std::fs::metadata(path).with_context(|| format!("cannot read {}", path.display()))?.len();
     let limit = options.limits.bytes;
+    // Bounded while it is read: a device or a pipe tells no length.
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(limit.saturating_add(1)).read_to_end(&mut bytes));
+    let size = read.with_context(|| format!("cannot read {}", path.display()))? as u64;
     if size > limit {
-        bail!("{} has {size} bytes, more than the limit of {limit}: split the recording", path.display());
+        bail!("{} has more than the limit of {limit} bytes: split the recording", path.display());
     }
-    std::fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+    Ok(bytes)
 }
 
 fn file_name(path: &Path) -> String {

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 /// Generalize demonstrations to the goals of an action.
 #[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
 pub struct GeneralizeArguments {
     /// Demonstrations: a file is one of a single stream, a directory one of a stream in each file.
     #[arg(required = true)]

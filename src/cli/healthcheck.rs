@@ -6,6 +6,7 @@ use std::time::Duration;
 
 /// Ask a server whether it is ready: exit code 0 is yes.
 #[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
 pub struct HealthcheckArguments {
     /// Address of the server.
     #[arg(long, default_value = "127.0.0.1:8080", value_name = "ADDRESS")]

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Rank actions by how well an observed demonstration shows them.
 #[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
 pub struct RecognizeArguments {
     /// What was observed: a file of one stream, or a directory of a stream in each file.
     observed: PathBuf,

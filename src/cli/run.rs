@@ -16,6 +16,7 @@ const SLICE: u64 = 2_000;
 
 /// Find the joint trajectory that produces the demonstrated effects.
 #[derive(Debug, clap::Args)]
+#[command(allow_negative_numbers = true)]
 pub struct RunArguments {
     #[command(flatten)]
     problem: problem::ProblemArguments,

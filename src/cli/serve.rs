@@ -100,9 +100,7 @@ async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()
         Some(token) => token.clone(),
         None => data.token(fresh_token).map_err(GateClosed::because)?.into(),
     };
-    if token.expose_secret().len() < 16 {
-        return Err(GateClosed::rule("the token has fewer than 16 characters: give a longer one").into());
-    }
+    check_token(token.expose_secret())?;
     let store = SqliteStore::open(&data.database()).await.map_err(GateClosed::because)?;
     let ports = Ports {
         store: Arc::new(store),
@@ -113,7 +111,7 @@ async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()
     let app = App::new(ports.clone());
     let listener = TcpListener::bind(config.server.listen)
         .await
-        .with_context(|| format!("{} cannot be listened on", config.server.listen))?;
+        .with_context(|| format!("{} cannot be listened on: give another --listen", config.server.listen))?;
     let address = listener.local_addr()?;
     let runner = Runner::start(&ports, &settings(config)).await?;
     let router = router(&app, &Access::new(token.expose_secret()), config)?;
@@ -145,6 +143,17 @@ fn check_address(server: &ServerConfig) -> Result<(), GateClosed> {
          give --allow-remote if the network or a proxy with TLS protects it",
         server.listen
     )))
+}
+
+/// The token goes into headers and into the URL that is printed.
+fn check_token(token: &str) -> Result<(), GateClosed> {
+    if token.len() < 16 {
+        return Err(GateClosed::rule("the token has fewer than 16 characters: give a longer one"));
+    }
+    if token.bytes().all(|b| b.is_ascii_alphanumeric() || b"-._~".contains(&b)) {
+        return Ok(());
+    }
+    Err(GateClosed::rule("the token holds a character that is not of A-Z a-z 0-9 - . _ ~: give another one"))
 }
 
 fn fresh_token() -> String {
