@@ -18,9 +18,9 @@ pub(super) struct ProblemArguments {
     /// wax, wax-reachable, paint, paper-wax, paper-paint, or the path of a TOML file.
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// Optimisation method; the preset's own parameters hold when it is the preset's method.
-    #[arg(long, value_enum)]
-    method: Option<Method>,
+    /// Optimisation method, with the preset's own parameters where it has some.
+    #[arg(long, value_parser = clap::builder::PossibleValuesParser::new(MethodSpec::NAMES))]
+    method: Option<String>,
     /// A goal ends when an observation is this near to it (Euclidean, features' unit).
     #[arg(long)]
     tolerance: Option<f64>,
@@ -64,26 +64,6 @@ pub(super) struct ProblemArguments {
     read: ReadArguments,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Method {
-    /// Steady-state tournament.
-    Sst,
-}
-
-impl Method {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Sst => "sst",
-        }
-    }
-
-    fn with_defaults(self) -> MethodSpec {
-        match self {
-            Self::Sst => MethodSpec::Sst(SstSpec::default()),
-        }
-    }
-}
-
 fn joint_value(argument: &str) -> Result<(String, f64), String> {
     let help = "give JOINT=VALUE in rad or m, for example wrist_yaw=-0.785";
     let (joint, value) = argument.split_once('=').ok_or(help)?;
@@ -96,10 +76,12 @@ pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
         Some(name) => read_preset(name)?,
         None => from_demonstrations(arguments)?,
     };
-    let execution = &mut named.problem.execution;
-    if let Some(method) = arguments.method.filter(|m| m.name() != execution.method.name()) {
-        execution.method = method.with_defaults();
+    if let Some(method) = &arguments.method
+        && !named.select_method(method)
+    {
+        bail!("no method is named {method:?}: use one of {:?}", MethodSpec::NAMES);
     }
+    let execution = &mut named.problem.execution;
     execution.tolerance = arguments.tolerance.or(execution.tolerance);
     execution.target_discrepancy = arguments.target_discrepancy.or(execution.target_discrepancy);
     execution.max_evaluations_per_goal = arguments.max_evaluations_per_goal.or(execution.max_evaluations_per_goal);
@@ -140,18 +122,13 @@ fn from_demonstrations(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
         fixed: arguments.fixed.iter().cloned().collect(),
         ..RobotSpec::default()
     };
-    let execution = ExecutionSpec {
-        method: MethodSpec::Sst(SstSpec::default()),
-        metric: Metric::default(),
-        target_discrepancy: Some(0.0),
-        tolerance: None,
-        max_evaluations_per_goal: None,
-        rounding_noise: 0.0,
-    };
+    let method = MethodSpec::Sst(SstSpec::default());
+    let execution = ExecutionSpec { target_discrepancy: Some(0.0), ..ExecutionSpec::new(method) };
     let count = demonstrations.len();
     Ok(Preset {
         name: "demonstrations".to_owned(),
         description: format!("{} goals from {count} demonstrations", generalized.goals.len()),
         problem: Problem { goals: generalized.goals, urdf, robot, world, execution },
+        methods: Vec::new(),
     })
 }

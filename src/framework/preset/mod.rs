@@ -5,6 +5,7 @@
 
 use crate::framework::execution::{ExecutionSpec, Problem};
 use crate::framework::generalization::Goals;
+use crate::framework::optimizer::MethodSpec;
 use crate::framework::robot::RobotSpec;
 use crate::framework::world::WorldSpec;
 use serde::Deserialize;
@@ -18,6 +19,24 @@ pub struct Preset {
     pub description: String,
     /// Everything an execution needs.
     pub problem: Problem,
+    /// Other methods with the parameters that belong to this problem.
+    pub methods: Vec<MethodSpec>,
+}
+
+impl Preset {
+    /// Searches by the method of that name: with the preset's own parameters where it has some, else with the method's
+    /// defaults. Returns whether there is such a method.
+    #[must_use]
+    pub fn select_method(&mut self, name: &str) -> bool {
+        let method = &mut self.problem.execution.method;
+        if method.name() == name {
+            return true;
+        }
+        let own = self.methods.iter().find(|m| m.name() == name).cloned();
+        let Some(chosen) = own.or_else(|| MethodSpec::by_name(name)) else { return false };
+        *method = chosen;
+        true
+    }
 }
 
 /// Why a text is not a preset.
@@ -62,6 +81,8 @@ struct RawPreset {
     goals: Goals,
     robot: RawRobot,
     execution: ExecutionSpec,
+    #[serde(default)]
+    methods: Vec<MethodSpec>,
 }
 
 /// [`RobotSpec`] and the URDF's file.
@@ -130,6 +151,7 @@ pub fn parse(
         name: name.to_owned(),
         description: raw.description,
         problem: Problem { goals: raw.goals, urdf, robot: raw.robot.spec, world, execution: raw.execution },
+        methods: raw.methods,
     })
 }
 
@@ -157,6 +179,21 @@ mod tests {
             let iet = Iet::new(&preset.problem, 1).unwrap();
             assert_eq!(iet.chain().len(), 3, "{name}");
         }
+    }
+
+    #[test]
+    fn every_method_can_be_chosen_and_the_paper_has_its_own() {
+        for name in names() {
+            for method in MethodSpec::NAMES {
+                let mut preset = shipped(name).unwrap();
+                assert!(preset.select_method(method), "{name} {method}");
+                assert_eq!(preset.problem.execution.method.name(), method);
+                Iet::new(&preset.problem, 1).unwrap();
+                let is_default = preset.problem.execution.method == MethodSpec::by_name(method).unwrap();
+                assert!(!(name.starts_with("paper-") && is_default), "{name} {method}: the paper's parameters");
+            }
+        }
+        assert!(!shipped("wax").unwrap().select_method("annealing"));
     }
 
     #[test]
