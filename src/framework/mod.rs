@@ -7,6 +7,7 @@
 
 #![warn(missing_docs)]
 
+pub mod constraint;
 pub mod demonstration;
 pub mod execution;
 pub mod feature;

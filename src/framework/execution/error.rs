@@ -1,5 +1,6 @@
 //! Why a problem cannot be executed.
 
+use crate::framework::constraint::ConstraintError;
 use crate::framework::optimizer::OptimizerError;
 use crate::framework::robot::{ChainError, ModelError};
 use crate::framework::world::WorldError;
@@ -19,6 +20,9 @@ pub enum ProblemError {
     /// The method.
     #[error("method: {0}")]
     Optimizer(#[from] OptimizerError),
+    /// The constraints.
+    #[error("constraints: {0}")]
+    Constraint(#[from] ConstraintError),
     /// A goal feature the world does not show.
     #[error("the goals need feature {feature:?}, which the world does not show; it shows {shown:?}")]
     UnknownFeature {
@@ -72,6 +76,20 @@ pub enum ProblemError {
         goal: usize,
         /// Trials that failed.
         failures: u64,
+    },
+    /// No candidate of a goal satisfied the constraints.
+    #[error(
+        "goal {goal}: no candidate satisfied the constraints within the search's limits; the nearest violated them by \
+         {nearest:?} (m or rad, one a constraint): widen them, raise max_attempts or the population, or set \
+         on_infeasible = \"append\""
+    )]
+    Infeasible {
+        /// Goal index from 0.
+        goal: usize,
+        /// The smallest violations met, one a constraint, m or rad.
+        nearest: Vec<f64>,
+        /// Evaluations of the run until then.
+        evaluations: u64,
     },
     /// Asked for a result too early.
     #[error("the run is at goal {goal} of {goals}: it has no result yet")]

@@ -15,8 +15,34 @@ use super::result::{GoalResult, Progress, RunResult, TracePoint, digest, record}
 use super::setup::Setup;
 use super::spec::Problem;
 use super::state::{GoalState, IetState, STATE_VERSION};
-use crate::framework::optimizer::{Batch, Optimizer, Outcome, StopReason, resume, start};
+use crate::framework::constraint::Proposal;
+use crate::framework::optimizer::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
 use crate::framework::robot::Chain;
+
+/// The candidate by which a winner that was never executed is executed.
+const CONFIRMATION: u64 = u64::MAX;
+
+/// A goal's winner.
+struct Hit {
+    joints: Vec<f64>,
+    observation: Vec<f64>,
+    fitness: f64,
+    provenance: Provenance,
+    /// What a winner that was never executed by the search really does.
+    confirmed: Option<f64>,
+}
+
+impl From<Best<'_>> for Hit {
+    fn from(best: Best<'_>) -> Self {
+        Self {
+            joints: best.joints.to_vec(),
+            observation: best.observation.to_vec(),
+            fitness: best.fitness,
+            provenance: best.provenance,
+            confirmed: None,
+        }
+    }
+}
 
 /// One run of a problem.
 pub struct Iet {
@@ -25,6 +51,8 @@ pub struct Iet {
     discrepancy: PartialDiscrepancy,
     optimizer: Option<Box<dyn Optimizer>>,
     goal: GoalState,
+    /// Over the executed candidates of the goal that ended last, the percentage nearest 100; 0 if none was.
+    painted: Option<f64>,
     results: Vec<GoalResult>,
     evaluations: u64,
     /// The m features of the goals, picked out of an observation.
@@ -56,8 +84,9 @@ impl Iet {
         iet.results = state.results;
         iet.evaluations = state.evaluations;
         iet.goal = state.goal;
+        iet.painted = state.painted;
         if let Some(saved) = state.optimizer {
-            iet.optimizer = Some(resume(&iet.setup.spec.method, iet.setup.space(), saved)?);
+            iet.optimizer = Some(iet.setup.resume(&iet.results, saved)?);
         }
         Ok(iet)
     }
@@ -68,6 +97,7 @@ impl Iet {
             seed,
             optimizer: None,
             goal: GoalState::default(),
+            painted: None,
             results: Vec::with_capacity(setup.goals.len()),
             evaluations: 0,
             seen: vec![0.0; setup.goals.features().len()],
@@ -84,6 +114,7 @@ impl Iet {
             results: self.results.clone(),
             evaluations: self.evaluations,
             goal: self.goal.clone(),
+            painted: self.painted,
             optimizer: self.optimizer.as_ref().map(|o| o.state()),
         }
     }
@@ -119,9 +150,21 @@ impl Iet {
     }
 
     /// Adds candidates of the current goal to `batch`; none when the run is finished.
+    ///
+    /// Where a goal's winner was never executed, it is asked for once more, to see what it really does. An empty batch
+    /// of an unfinished run means that the goal has ended without execution: tell no observations, then bring the world
+    /// to the grown [`Iet::prefix`] and ask again.
     pub fn ask(&mut self, batch: &mut Batch) {
-        if let Some(optimizer) = &mut self.optimizer {
+        let Some(optimizer) = &mut self.optimizer else { return };
+        if self.goal.ended.is_none() {
             optimizer.ask(batch);
+        }
+        if batch.is_empty()
+            && self.goal.ended.or(optimizer.stop()).is_some()
+            && let Some(best) = optimizer.best()
+            && !best.provenance.is_executed()
+        {
+            batch.push(CONFIRMATION, best.joints);
         }
     }
 
@@ -129,16 +172,26 @@ impl Iet {
     /// the run moves on to the next goal, so that [`Iet::prefix`] has grown.
     ///
     /// # Errors
-    /// [`ProblemError::NothingExecuted`] if the goal ended without any executed candidate.
+    /// [`ProblemError::NothingExecuted`] if the goal ended without any executed candidate, [`ProblemError::Infeasible`]
+    /// if none satisfied the constraints.
     pub fn tell(&mut self, observations: &Observations) -> Result<(), ProblemError> {
         let goal_index = self.results.len();
         for (id, joints, observation) in observations.iter() {
+            if id == CONFIRMATION {
+                return self.tell_confirmation(observation);
+            }
             self.tell_one(id, joints, observation, observations)?;
-            if self.results.len() != goal_index {
-                break;
+            if self.results.len() != goal_index || self.goal.ended.is_some() {
+                return Ok(());
             }
         }
-        Ok(())
+        self.end_goal_if_over()
+    }
+
+    fn see(&mut self, observation: &[f64]) {
+        for (value, &source) in self.seen.iter_mut().zip(&self.setup.select) {
+            *value = observation[source];
+        }
     }
 
     fn tell_one(
@@ -148,18 +201,18 @@ impl Iet {
         observation: Option<&[f64]>,
         observations: &Observations,
     ) -> Result<(), ProblemError> {
-        let Some(optimizer) = &mut self.optimizer else { return Ok(()) };
         let goal_index = self.results.len();
-        let mut ended = None;
         if let Some(observation) = observation {
-            for (value, &source) in self.seen.iter_mut().zip(&self.setup.select) {
-                *value = observation[source];
-            }
+            self.see(observation);
+            let Some(optimizer) = &mut self.optimizer else { return Ok(()) };
             let noise = self.setup.noise(self.seed, goal_index, id);
             let fitness = self.discrepancy.of(&self.seen) + noise;
+            let provenance = observations.provenance();
+            let feasible = optimizer.is_feasible(id);
             self.evaluations += 1;
             self.goal.evaluations += 1;
-            if self.goal.best.is_none_or(|best| fitness < best) {
+            self.goal.real += u64::from(provenance == Provenance::Real);
+            if feasible && self.goal.best.is_none_or(|best| fitness < best) {
                 self.goal.best = Some(fitness);
                 let point = TracePoint { evaluations: self.goal.evaluations, discrepancy: fitness };
                 record(&mut self.goal.trace, point);
@@ -169,72 +222,89 @@ impl Iet {
             {
                 self.goal.painted = Some(percent);
             }
-            let provenance = observations.provenance();
             optimizer.tell(id, Outcome::Observed { fitness, observation: &self.seen, provenance });
             let distance = || -> f64 {
                 let goal = self.setup.goals.row(goal_index);
                 self.seen.iter().zip(goal).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
             };
-            if self.setup.spec.tolerance.is_some_and(|tolerance| distance() <= tolerance) {
-                let seen = self.seen.clone();
-                let result = self.result(fitness, StopReason::Tolerance, joints.to_vec(), seen, provenance);
-                return self.finish_goal(result);
+            if feasible && self.setup.spec.tolerance.is_some_and(|tolerance| distance() <= tolerance) {
+                let observation = self.seen.clone();
+                let winner = Hit { fitness, joints: joints.to_vec(), observation, provenance, confirmed: None };
+                return self.finish_goal(StopReason::Tolerance, winner);
             }
-            ended = optimizer.stop();
         } else {
             self.goal.failures += 1;
-            optimizer.tell(id, Outcome::Failed);
-            ended = ended.or(optimizer.stop());
+            if let Some(optimizer) = &mut self.optimizer {
+                optimizer.tell(id, Outcome::Failed);
+            }
         }
+        self.end_goal_if_over()
+    }
+
+    /// Ends the goal if its search is over; a winner that was never executed is waited for.
+    fn end_goal_if_over(&mut self) -> Result<(), ProblemError> {
+        let Some(optimizer) = &self.optimizer else { return Ok(()) };
         let trials = self.goal.evaluations + self.goal.failures;
-        if self.setup.spec.max_evaluations_per_goal.is_some_and(|most| trials >= most) {
-            ended = ended.or(Some(StopReason::MaxEvaluations));
-        }
-        let Some(reason) = ended else { return Ok(()) };
+        let used_up = self.setup.spec.max_evaluations_per_goal.is_some_and(|most| trials >= most);
+        let reason = optimizer.stop().or(used_up.then_some(StopReason::MaxEvaluations));
+        let Some(reason) = self.goal.ended.or(reason) else { return Ok(()) };
         let Some(best) = optimizer.best() else {
-            return Err(ProblemError::NothingExecuted { goal: goal_index, failures: self.goal.failures });
+            let (goal, failures) = (self.results.len(), self.goal.failures);
+            let nearest = optimizer.nearest_violations().map(<[f64]>::to_vec);
+            return Err(nearest.map_or(ProblemError::NothingExecuted { goal, failures }, |nearest| {
+                ProblemError::Infeasible { goal, nearest, evaluations: self.evaluations }
+            }));
         };
-        let (joints, seen) = (best.joints.to_vec(), best.observation.to_vec());
-        let (fitness, provenance) = (best.fitness, best.provenance);
-        let result = self.result(fitness, reason, joints, seen, provenance);
-        self.finish_goal(result)
-    }
-
-    fn result(
-        &mut self,
-        discrepancy: f64,
-        stop_reason: StopReason,
-        joints: Vec<f64>,
-        observation: Vec<f64>,
-        provenance: crate::framework::optimizer::Provenance,
-    ) -> GoalResult {
-        GoalResult {
-            index: self.results.len(),
-            evaluations: self.goal.evaluations,
-            failures: self.goal.failures,
-            discrepancy,
-            stop_reason,
-            joints,
-            observation,
-            provenance,
-            trace: std::mem::take(&mut self.goal.trace),
+        if best.provenance.is_executed() {
+            let winner = best.into();
+            return self.finish_goal(reason, winner);
         }
+        self.goal.ended = Some(reason);
+        Ok(())
     }
 
-    fn finish_goal(&mut self, result: GoalResult) -> Result<(), ProblemError> {
-        self.discrepancy.append(&result.observation);
-        self.results.push(result);
-        self.optimizer = None;
-        if self.is_finished() {
+    /// The winner that was never executed has now been: its goal ends. No evaluation of the search.
+    fn tell_confirmation(&mut self, observation: Option<&[f64]>) -> Result<(), ProblemError> {
+        let (goal, failures) = (self.results.len(), self.goal.failures + 1);
+        let Some(observation) = observation else { return Err(ProblemError::NothingExecuted { goal, failures }) };
+        self.see(observation);
+        let Some(optimizer) = &self.optimizer else { return Ok(()) };
+        let (Some(best), Some(reason)) = (optimizer.best(), self.goal.ended.or(optimizer.stop())) else {
             return Ok(());
-        }
-        self.goal = GoalState::default();
-        self.start_goal()
+        };
+        let confirmed = Some(self.discrepancy.of(&self.seen));
+        let winner = Hit { observation: self.seen.clone(), confirmed, ..best.into() };
+        self.finish_goal(reason, winner)
+    }
+
+    fn finish_goal(&mut self, stop_reason: StopReason, winner: Hit) -> Result<(), ProblemError> {
+        let state = std::mem::take(&mut self.goal);
+        let tally = self.optimizer.take().map_or_else(Tally::default, |optimizer| optimizer.tally());
+        self.painted = self.setup.painted.map(|_| state.painted.unwrap_or(0.0));
+        self.discrepancy.append(&winner.observation);
+        let previous = self.results.last().map(|result| result.joints.as_slice());
+        let proposal = Proposal { joints: &winner.joints, origins: [None; 2], previous };
+        let feasible = winner.provenance != Provenance::Penalised && self.setup.constraints.is_feasible(&proposal);
+        let tally = Tally { simulated: state.evaluations - state.real, real: state.real, ..tally };
+        self.results.push(GoalResult {
+            index: self.results.len(),
+            evaluations: state.evaluations,
+            failures: state.failures,
+            discrepancy: winner.fitness,
+            true_discrepancy: winner.confirmed,
+            stop_reason,
+            joints: winner.joints,
+            observation: winner.observation,
+            provenance: winner.provenance,
+            feasible,
+            tally,
+            trace: state.trace,
+        });
+        if self.is_finished() { Ok(()) } else { self.start_goal() }
     }
 
     fn start_goal(&mut self) -> Result<(), ProblemError> {
-        let stream = self.results.len() as u64;
-        self.optimizer = Some(start(&self.setup.spec.method, self.setup.space(), self.seed, stream)?);
+        self.optimizer = Some(self.setup.start(self.seed, &self.results)?);
         Ok(())
     }
 
@@ -270,7 +340,10 @@ impl Iet {
             seed: self.seed,
             evaluations: self.evaluations,
             discrepancy: last.discrepancy,
-            painted_percent: self.goal.painted,
+            true_discrepancy: last.true_discrepancy,
+            valid: last.feasible,
+            painted_percent: self.painted,
+            tally: self.results.iter().map(|goal| goal.tally).sum(),
             digest: digest(&self.results),
             goals: self.results,
         })

@@ -1,6 +1,6 @@
 //! What an execution yields, goal by goal, and what can be told of one that runs.
 
-use crate::framework::optimizer::{Provenance, StopReason};
+use crate::framework::optimizer::{Provenance, StopReason, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use utoipa::ToSchema;
@@ -25,6 +25,9 @@ pub struct GoalResult {
     pub failures: u64,
     /// Discrepancy of the whole partial observation O_1..O_j against X_1..X_j, features' unit.
     pub discrepancy: f64,
+    /// What the winner really does, where `discrepancy` is the value of one that was never executed by the search.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub true_discrepancy: Option<f64>,
     /// Why the search for this goal ended.
     pub stop_reason: StopReason,
     /// U_j: free joints in gene order, rad or m.
@@ -33,6 +36,12 @@ pub struct GoalResult {
     pub observation: Vec<f64>,
     /// Where the discrepancy comes from.
     pub provenance: Provenance,
+    /// Whether the joints satisfy the constraints; true where there are none.
+    #[serde(default = "satisfied")]
+    pub feasible: bool,
+    /// Where the fitness values of this goal come from, by count.
+    #[serde(default)]
+    pub tally: Tally,
     /// Convergence: one point an improvement, thinned out evenly beyond 256.
     pub trace: Vec<TracePoint>,
 }
@@ -65,12 +74,26 @@ pub struct RunResult {
     pub evaluations: u64,
     /// Discrepancy at the last goal, features' unit.
     pub discrepancy: f64,
-    /// Coverage worlds: over the last goal's executed candidates, the percentage nearest 100.
+    /// What the last goal's winner really does, where `discrepancy` is the value of one that was never executed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub true_discrepancy: Option<f64>,
+    /// Whether the last goal's joints satisfy the constraints; true where there are none.
+    #[serde(default = "satisfied")]
+    pub valid: bool,
+    /// Where the fitness values of all goals come from, by count.
+    #[serde(default)]
+    pub tally: Tally,
+    /// Coverage worlds: over the last goal's executed candidates, the percentage nearest 100, and 0 if none was
+    /// executed.
     pub painted_percent: Option<f64>,
     /// All goals, in order.
     pub goals: Vec<GoalResult>,
     /// SHA-256 (hex) of each goal's joints, evaluations and discrepancy, to the last bit.
     pub digest: String,
+}
+
+fn satisfied() -> bool {
+    true
 }
 
 impl RunResult {

@@ -1,11 +1,14 @@
 //! A problem made ready: robot, goals and world proven to fit together.
 
 use super::error::ProblemError;
+use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
+use crate::framework::constraint::{Constrained, ConstraintError, Constraints, Rules};
 use crate::framework::generalization::Goals;
-use crate::framework::optimizer::SearchSpace;
+use crate::framework::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
 use crate::framework::robot::{Chain, RobotModel};
 use crate::framework::world::{self, WorldSpec};
+use std::sync::Arc;
 
 /// What a run needs of its problem.
 #[derive(Debug, Clone)]
@@ -18,12 +21,15 @@ pub(super) struct Setup {
     pub world_features: usize,
     /// Index of the painted percentage among the world's features, in coverage worlds.
     pub painted: Option<usize>,
+    pub constraints: Arc<Constraints>,
 }
 
 impl Setup {
     pub(super) fn new(problem: &Problem) -> Result<Self, ProblemError> {
         check_spec(&problem.execution)?;
-        let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
+        let model = RobotModel::from_urdf(&problem.urdf)?;
+        let chain = Chain::new(&model, &problem.robot)?;
+        let constraints = Constraints::new(&problem.execution.constraints, &model, &problem.robot, &chain)?;
         world::build(&problem.world, &chain)?;
         let shown = world::features(&problem.world)?;
         let mut select = Vec::with_capacity(problem.goals.features().len());
@@ -48,6 +54,43 @@ impl Setup {
             select,
             world_features: shown.len(),
             painted: matches!(problem.world, WorldSpec::Coverage(_)).then_some(0),
+            constraints: Arc::new(constraints),
+        })
+    }
+
+    /// A fresh search for the goal after `results`.
+    pub(super) fn start(&self, seed: u64, results: &[GoalResult]) -> Result<Box<dyn Optimizer>, ProblemError> {
+        let stream = results.len() as u64;
+        let inner = optimizer::start(&self.spec.method, self.space(), seed, stream)?;
+        Ok(match self.rules(results) {
+            Some(rules) => Box::new(Constrained::new(inner, rules, self.space(), seed, stream)),
+            None => inner,
+        })
+    }
+
+    /// Goes on with a saved search for the goal after `results`.
+    pub(super) fn resume(
+        &self,
+        results: &[GoalResult],
+        state: OptimizerState,
+    ) -> Result<Box<dyn Optimizer>, ProblemError> {
+        let resume = |state| optimizer::resume(&self.spec.method, self.space(), state);
+        Ok(match (self.rules(results), state) {
+            (Some(rules), OptimizerState::Constrained(state)) => {
+                let inner = resume(state.inner().clone())?;
+                Box::new(Constrained::resume(inner, rules, self.space(), *state)?)
+            }
+            (_, state) => resume(state)?,
+        })
+    }
+
+    /// How the goal after `results` is constrained, if it is.
+    fn rules(&self, results: &[GoalResult]) -> Option<Rules> {
+        (!self.constraints.is_empty()).then(|| Rules {
+            constraints: Arc::clone(&self.constraints),
+            handling: self.spec.handling.clone(),
+            on_infeasible: self.spec.on_infeasible,
+            previous: results.last().map(|result| result.joints.clone()),
         })
     }
 
@@ -91,6 +134,15 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
     not_negative("target_discrepancy", spec.target_discrepancy.unwrap_or(0.0))?;
     not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
     not_negative("rounding_noise", spec.rounding_noise)?;
+    Rules::check(&spec.handling)?;
+    let unexecuted_may_win = match &spec.method {
+        MethodSpec::FiPso(method) => method.unexecuted_may_win,
+        MethodSpec::AffgPso(method) => method.unexecuted_may_win,
+        MethodSpec::Sst(_) | MethodSpec::Pso(_) => false,
+    };
+    if unexecuted_may_win && !spec.constraints.is_empty() {
+        return Err(ConstraintError::UnexecutedWinner.into());
+    }
     if spec.max_evaluations_per_goal == Some(0) {
         let expected = "give at least 1";
         return Err(ProblemError::Value { field: "max_evaluations_per_goal", value: 0.0, expected });

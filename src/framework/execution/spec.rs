@@ -1,5 +1,6 @@
 //! A problem: all an execution needs, self-contained and serialisable, so that a job can be rerun from it alone.
 
+use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::generalization::Goals;
 use crate::framework::optimizer::MethodSpec;
 use crate::framework::recognition::Metric;
@@ -46,4 +47,35 @@ pub struct ExecutionSpec {
     /// runs' simulator was not exactly repeatable: 1e-13 mm reproduces their stagnation counts.
     #[serde(default)]
     pub rounding_noise: f64,
+    /// What every candidate must satisfy.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub constraints: Vec<ConstraintSpec>,
+    /// What is done about candidates that do not.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub handling: HandlingSpec,
+    /// What is done about goals for which no candidate does.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub on_infeasible: OnInfeasible,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+impl ExecutionSpec {
+    /// `method` with everything else as it is by default.
+    #[must_use]
+    pub fn new(method: MethodSpec) -> Self {
+        Self {
+            method,
+            metric: Metric::default(),
+            target_discrepancy: None,
+            tolerance: None,
+            max_evaluations_per_goal: None,
+            rounding_noise: 0.0,
+            constraints: Vec::new(),
+            handling: HandlingSpec::default(),
+            on_infeasible: OnInfeasible::default(),
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
-use crate::framework::optimizer::OptimizerState;
+use crate::framework::optimizer::{OptimizerState, StopReason};
 use serde::{Deserialize, Serialize};
 
 /// Version of [`IetState`]; changes when its meaning does.
@@ -17,10 +17,11 @@ pub struct IetState {
     pub(super) results: Vec<GoalResult>,
     pub(super) evaluations: u64,
     pub(super) goal: GoalState,
+    pub(super) painted: Option<f64>,
     pub(super) optimizer: Option<OptimizerState>,
 }
 
-/// The goal being searched; after the last goal, that one.
+/// The goal being searched.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct GoalState {
     pub evaluations: u64,
@@ -28,6 +29,10 @@ pub(super) struct GoalState {
     pub best: Option<f64>,
     pub painted: Option<f64>,
     pub trace: Vec<TracePoint>,
+    /// Evaluations executed on a robot.
+    pub real: u64,
+    /// Why the search is over, while its winner waits to be executed.
+    pub ended: Option<StopReason>,
 }
 
 impl IetState {

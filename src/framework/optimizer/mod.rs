@@ -6,16 +6,28 @@
 //!   goes on with the same bits.
 //! - Genes are radians or metres. A failed trial is [`Outcome::Failed`], never NaN.
 
+mod affg_pso;
 mod batch;
+mod bounds;
+mod fi_pso;
+mod granules;
+mod hall;
+mod infinite_as_null;
+mod pso;
 mod rng;
 mod spec;
 mod sst;
+mod swarm;
 
+pub use affg_pso::AffgState;
 pub use batch::Batch;
+pub use bounds::BoundsRule;
 pub use rng::RandomStream;
-pub use spec::{BoundsRule, MethodSpec, SstSpec};
+pub use spec::{MethodSpec, SstSpec};
 pub use sst::{Sst, SstState};
+pub use swarm::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, SwarmState, VelocityClamp};
 
+use crate::framework::constraint::ConstrainedState;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -55,6 +67,8 @@ pub enum StopReason {
     Tolerance,
     /// The goal's evaluations are used up.
     MaxEvaluations,
+    /// The search ended without a candidate that satisfies the constraints.
+    Infeasible,
 }
 
 /// What became of a candidate.
@@ -69,8 +83,52 @@ pub enum Outcome<'a> {
         /// Where it was executed.
         provenance: Provenance,
     },
+    /// It was judged without executing: its fitness is a penalty.
+    Penalised {
+        /// The penalty, finite.
+        fitness: f64,
+    },
+    /// It may not be executed: another takes its place, made in the same way, as if this one had never been.
+    Rejected,
     /// It could not be executed or observed.
     Failed,
+}
+
+/// Where fitness values come from and what was done about infeasible candidates, by count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[serde(default)]
+pub struct Tally {
+    /// Executed in simulation.
+    pub simulated: u64,
+    /// Executed on a robot.
+    pub real: u64,
+    /// Fitness inherited.
+    pub inherited: u64,
+    /// Fitness taken from a granule.
+    pub granule: u64,
+    /// Fitness that is a penalty, not executed.
+    pub penalised: u64,
+    /// Executed candidates whose fitness was made worse because they are infeasible.
+    pub worsened: u64,
+    /// Candidates rejected; another took the place of each.
+    pub rejected: u64,
+    /// Candidates moved to a feasible place before they were executed.
+    pub repaired: u64,
+}
+
+impl std::iter::Sum for Tally {
+    fn sum<I: Iterator<Item = Self>>(tallies: I) -> Self {
+        tallies.fold(Self::default(), |a, b| Self {
+            simulated: a.simulated + b.simulated,
+            real: a.real + b.real,
+            inherited: a.inherited + b.inherited,
+            granule: a.granule + b.granule,
+            penalised: a.penalised + b.penalised,
+            worsened: a.worsened + b.worsened,
+            rejected: a.rejected + b.rejected,
+            repaired: a.repaired + b.repaired,
+        })
+    }
 }
 
 /// The best candidate so far.
@@ -96,7 +154,7 @@ pub trait Optimizer: Send {
     /// it is late news of a candidate told before.
     fn tell(&mut self, id: u64, outcome: Outcome<'_>);
 
-    /// The best executed candidate so far.
+    /// The best candidate so far: executed, unless only penalised ones are known or an option lets others win.
     fn best(&self) -> Option<Best<'_>>;
 
     /// Why the search has ended by its own rules, if it has.
@@ -104,6 +162,33 @@ pub trait Optimizer: Send {
 
     /// Everything needed to go on with the same bits.
     fn state(&self) -> OptimizerState;
+
+    /// Generations ended so far; 0 where a method has none.
+    fn generation(&self) -> u64 {
+        0
+    }
+
+    /// The individuals candidate `id` (asked and not told) was bred from; none for a random one.
+    fn origins(&self, id: u64) -> [Option<&[f64]>; 2];
+
+    /// Candidate `id` (asked and not told) will be executed at `joints` instead.
+    fn amend(&mut self, id: u64, joints: &[f64]);
+
+    /// Whether candidate `id` (asked and not told) may be the result of its goal.
+    fn is_feasible(&self, id: u64) -> bool {
+        let _ = id;
+        true
+    }
+
+    /// The smallest violations of an infeasible candidate so far, one a constraint (m or rad).
+    fn nearest_violations(&self) -> Option<&[f64]> {
+        None
+    }
+
+    /// Fitness values so far that were no evaluations; executions are not counted here.
+    fn tally(&self) -> Tally {
+        Tally::default()
+    }
 }
 
 /// The saved state of an optimiser, by method.
@@ -112,6 +197,28 @@ pub trait Optimizer: Send {
 pub enum OptimizerState {
     /// Steady-state tournament.
     Sst(SstState),
+    /// Particle swarm.
+    Pso(SwarmState),
+    /// Particle swarm with fitness inheritance.
+    FiPso(SwarmState),
+    /// Particle swarm with fitness granulation.
+    AffgPso(AffgState),
+    /// Any of these under constraints.
+    Constrained(Box<ConstrainedState>),
+}
+
+impl OptimizerState {
+    /// Name of the method it was saved from.
+    #[must_use]
+    pub fn method(&self) -> &'static str {
+        match self {
+            Self::Sst(_) => "sst",
+            Self::Pso(_) => "pso",
+            Self::FiPso(_) => "fi_pso",
+            Self::AffgPso(_) => "affg_pso",
+            Self::Constrained(state) => state.method(),
+        }
+    }
 }
 
 /// What an optimiser searches in and when it may stop early.
@@ -152,6 +259,14 @@ pub enum OptimizerError {
         /// Version understood.
         expected: u32,
     },
+    /// A state of another method.
+    #[error("the saved state is one of {found}, the method is {expected}: it belongs to another job")]
+    Method {
+        /// Method of the state.
+        found: &'static str,
+        /// Method of the problem.
+        expected: &'static str,
+    },
     /// A state of another problem.
     #[error("the saved {method} state holds {found} {what}, the problem needs {expected}: it belongs to another job")]
     Shape {
@@ -178,6 +293,9 @@ pub fn start(
 ) -> Result<Box<dyn Optimizer>, OptimizerError> {
     match method {
         MethodSpec::Sst(spec) => Ok(Box::new(Sst::new(spec, space, seed, stream)?)),
+        MethodSpec::Pso(spec) => pso::start(spec, space, seed, stream),
+        MethodSpec::FiPso(spec) => fi_pso::start(spec, space, seed, stream),
+        MethodSpec::AffgPso(spec) => affg_pso::start(spec, space, seed, stream),
     }
 }
 
@@ -192,5 +310,9 @@ pub fn resume(
 ) -> Result<Box<dyn Optimizer>, OptimizerError> {
     match (method, state) {
         (MethodSpec::Sst(spec), OptimizerState::Sst(state)) => Ok(Box::new(Sst::resume(spec, space, state)?)),
+        (MethodSpec::Pso(spec), OptimizerState::Pso(state)) => pso::resume(spec, space, state),
+        (MethodSpec::FiPso(spec), OptimizerState::FiPso(state)) => fi_pso::resume(spec, space, state),
+        (MethodSpec::AffgPso(spec), OptimizerState::AffgPso(state)) => affg_pso::resume(spec, space, state),
+        (method, state) => Err(OptimizerError::Method { found: state.method(), expected: method.name() }),
     }
 }

@@ -3,12 +3,14 @@
 use super::{finite, finite_or_none, list, metric, reference, references, required, text};
 use crate::app::AppError;
 use crate::app::jobs::{CreateJob, ExecutionRequest, GeneralizationRequest};
+use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::execution::ExecutionSpec;
 use crate::framework::generalization::Weighting;
 use crate::framework::optimizer::{BoundsRule, MethodSpec, SstSpec};
 use crate::grpc::proto;
 use proto::execution_spec::Method;
 use proto::work::Kind;
+use serde::{Deserialize, Serialize};
 
 /// The work of a request.
 pub fn work(work: Option<proto::Work>) -> Result<CreateJob, AppError> {
@@ -44,15 +46,43 @@ fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
 }
 
 fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
-    let Method::Sst(sst) = required("/execution/method", spec.method)?;
+    let method = match required("/execution/method", spec.method)? {
+        Method::Sst(sst) => MethodSpec::Sst(tournament(&sst)?),
+        Method::MethodJson(json) => document("/execution/method_json", &json)?,
+    };
+    let constrained: Constrained = match spec.constraints_json.as_str() {
+        "" => Constrained::default(),
+        json => document("/execution/constraints_json", json)?,
+    };
     Ok(ExecutionSpec {
-        method: MethodSpec::Sst(tournament(&sst)?),
+        method,
+        constraints: constrained.constraints,
+        handling: constrained.handling,
+        on_infeasible: constrained.on_infeasible,
         metric: metric("/execution/metric", spec.metric)?,
         target_discrepancy: finite_or_none("/execution/target_discrepancy", spec.target_discrepancy)?,
         tolerance: finite_or_none("/execution/tolerance", spec.tolerance)?,
         max_evaluations_per_goal: spec.max_evaluations_per_goal,
         rounding_noise: finite("/execution/rounding_noise", spec.rounding_noise)?,
     })
+}
+
+/// The part of an execution that travels as a JSON document.
+#[derive(Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Constrained {
+    constraints: Vec<ConstraintSpec>,
+    handling: HandlingSpec,
+    on_infeasible: OnInfeasible,
+}
+
+fn document<T: serde::de::DeserializeOwned>(pointer: &str, json: &str) -> Result<T, AppError> {
+    serde_json::from_str(json).map_err(|error| AppError::field(pointer, "invalid_value", error.to_string()))
+}
+
+/// JSON of a value type, which always has one.
+fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).unwrap_or_default()
 }
 
 fn tournament(sst: &proto::SteadyStateTournament) -> Result<SstSpec, AppError> {
@@ -63,6 +93,7 @@ fn tournament(sst: &proto::SteadyStateTournament) -> Result<SstSpec, AppError> {
         stagnation: sst.stagnation.unwrap_or(default.stagnation),
         mutation_probability: finite("/execution/method/mutation_probability", probability)?,
         ecf_gene0_quirk: sst.ecf_gene0_quirk.unwrap_or(default.ecf_gene0_quirk),
+        ecf_shared_parent_quirk: sst.ecf_shared_parent_quirk.unwrap_or(default.ecf_shared_parent_quirk),
         bounds: if sst.open_bounds.unwrap_or(false) { BoundsRule::Open } else { BoundsRule::Clamp },
         ecf_target_at_generation_end: sst.ecf_target_at_generation_end.unwrap_or(default.ecf_target_at_generation_end),
     })
@@ -124,17 +155,23 @@ impl From<ExecutionRequest> for proto::Execution {
 
 impl From<ExecutionSpec> for proto::ExecutionSpec {
     fn from(spec: ExecutionSpec) -> Self {
-        let MethodSpec::Sst(sst) = spec.method;
-        let sst = proto::SteadyStateTournament {
-            population: Some(sst.population),
-            stagnation: Some(sst.stagnation),
-            mutation_probability: Some(sst.mutation_probability),
-            ecf_gene0_quirk: Some(sst.ecf_gene0_quirk),
-            open_bounds: Some(sst.bounds == BoundsRule::Open),
-            ecf_target_at_generation_end: Some(sst.ecf_target_at_generation_end),
+        let method = match spec.method {
+            MethodSpec::Sst(sst) if sst.bounds != BoundsRule::Reflect => Method::Sst(proto::SteadyStateTournament {
+                population: Some(sst.population),
+                stagnation: Some(sst.stagnation),
+                mutation_probability: Some(sst.mutation_probability),
+                ecf_gene0_quirk: Some(sst.ecf_gene0_quirk),
+                ecf_shared_parent_quirk: Some(sst.ecf_shared_parent_quirk),
+                open_bounds: Some(sst.bounds == BoundsRule::Open),
+                ecf_target_at_generation_end: Some(sst.ecf_target_at_generation_end),
+            }),
+            method => Method::MethodJson(json(&method)),
         };
+        let constrained =
+            Constrained { constraints: spec.constraints, handling: spec.handling, on_infeasible: spec.on_infeasible };
         Self {
-            method: Some(Method::Sst(sst)),
+            method: Some(method),
+            constraints_json: if constrained == Constrained::default() { String::new() } else { json(&constrained) },
             metric: proto::Metric::from(spec.metric) as i32,
             target_discrepancy: spec.target_discrepancy,
             tolerance: spec.tolerance,
@@ -162,6 +199,12 @@ mod tests {
             serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
                 "world": format!("wld_{id}"), "seed": 7, "repetitions": 3, "execution": {"tolerance": 5.0,
                 "method": {"name": "sst", "population": 10, "stagnation": 4, "ecf_gene0_quirk": true}}}),
+            serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
+                "world": format!("wld_{id}"), "seed": 7, "execution": {
+                "method": {"name": "fi_pso", "swarm": {"population": 10}, "inheritance_probability": 0.25},
+                "constraints": [{"kind": "region", "geometry": {"shape": "sphere", "center_m": [0.5, 0, 0], "radius_m": 0.4}}],
+                "handling": {"strategy": "penalty", "penalty": {"kind": "dynamic", "weight": 2.5}},
+                "on_infeasible": "append"}}),
         ] {
             let before = request(json);
             assert_eq!(work(Some(before.clone().into())).unwrap(), before);

@@ -17,12 +17,12 @@ mod tests;
 
 pub use state::SstState;
 
+use super::hall::Hall;
 use super::{
-    Batch, Best, BoundsRule, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, SstSpec,
-    StopReason,
+    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, SstSpec, StopReason,
 };
 use operators::{CROSSOVERS, Parents, mutate};
-use state::{Hall, STATE_VERSION, Waiting};
+use state::{STATE_VERSION, Waiting};
 
 /// The steady-state tournament; see the module for the algorithm.
 #[derive(Debug)]
@@ -32,7 +32,6 @@ pub struct Sst {
     state: SstState,
     /// How many of `state.waiting` were handed out since start or resume.
     handed: usize,
-    parents: [Vec<f64>; 2],
 }
 
 impl Sst {
@@ -57,8 +56,7 @@ impl Sst {
     }
 
     fn with(spec: &SstSpec, space: SearchSpace, state: SstState) -> Self {
-        let genes = space.lower.len();
-        Self { spec: spec.clone(), space, state, handed: 0, parents: [vec![0.0; genes], vec![0.0; genes]] }
+        Self { spec: spec.clone(), space, state, handed: 0 }
     }
 
     /// Overwrites the worst of three by a child of the other two, which then waits for its fitness.
@@ -78,16 +76,17 @@ impl Sst {
             1 => [drawn[0], drawn[2]],
             _ => [drawn[0], drawn[1]],
         };
-        for (copy, individual) in self.parents.iter_mut().zip([i1, i2]) {
+        for (copy, individual) in state.family.chunks_exact_mut(genes).zip([slot, i1, i2]) {
             copy.copy_from_slice(&state.joints[individual * genes..(individual + 1) * genes]);
         }
         let parents = Parents {
-            p1: &self.parents[0],
-            p2: &self.parents[1],
+            p1: &state.family[genes..2 * genes],
+            p2: &state.family[2 * genes..],
             fitness: [state.fitness[i1], state.fitness[i2]],
             lower: &self.space.lower,
             upper: &self.space.upper,
             first: usize::from(self.spec.ecf_gene0_quirk),
+            shared: [i1, i2].map(|parent| self.spec.ecf_shared_parent_quirk && parent == slot),
         };
         let child = &mut state.joints[slot * genes..(slot + 1) * genes];
         let (_, crossover) = CROSSOVERS[state.rng.below(CROSSOVERS.len())];
@@ -95,12 +94,17 @@ impl Sst {
         if state.rng.unit() < self.spec.mutation_probability {
             mutate(child, &self.space.lower, &self.space.upper, &mut state.rng);
         }
-        if self.spec.bounds == BoundsRule::Clamp {
-            for (gene, value) in child.iter_mut().enumerate() {
-                *value = value.clamp(self.space.lower[gene], self.space.upper[gene]);
-            }
+        for (gene, value) in child.iter_mut().enumerate() {
+            *value = self.spec.bounds.apply(*value, self.space.lower[gene], self.space.upper[gene]);
         }
         state.fitness[slot] = f64::INFINITY;
+        if self.spec.ecf_shared_parent_quirk {
+            for (parent, individual) in state.family[genes..].chunks_exact_mut(genes).zip([i1, i2]) {
+                if individual == slot {
+                    parent.copy_from_slice(child);
+                }
+            }
+        }
         state.waiting.push(Waiting { id: state.next_id, slot });
         state.next_id += 1;
         self.handed = 0;
@@ -109,20 +113,14 @@ impl Sst {
     /// Hall of fame and stop rules; `state.generation` is the one that ends.
     fn end_generation(&mut self) {
         let best = self.best_slot();
-        let state = &mut self.state;
-        let best_fitness = best.map_or(f64::INFINITY, |slot| state.fitness[slot]);
+        let best_fitness = best.map_or(f64::INFINITY, |slot| self.state.fitness[slot]);
         if let Some(slot) = best
-            && state.hall.as_ref().is_none_or(|hall| best_fitness < hall.fitness)
+            && self.state.hall.as_ref().is_none_or(|hall| best_fitness < hall.fitness)
         {
-            let (genes, features) = (self.space.lower.len(), self.space.features);
-            state.hall = Some(Hall {
-                joints: state.joints[slot * genes..(slot + 1) * genes].to_vec(),
-                observation: state.observations[slot * features..(slot + 1) * features].to_vec(),
-                fitness: best_fitness,
-                provenance: state.provenance[slot],
-            });
-            state.last_change = state.generation;
+            self.state.hall = Some(self.as_best(slot).into());
+            self.state.last_change = self.state.generation;
         }
+        let state = &mut self.state;
         if self.space.target.is_some_and(|target| best_fitness <= target) {
             state.stop = Some(StopReason::Target);
         } else if state.generation - state.last_change > u64::from(self.spec.stagnation) {
@@ -143,6 +141,34 @@ impl Sst {
             }
         }
         best
+    }
+}
+
+impl Sst {
+    fn as_best(&self, slot: usize) -> Best<'_> {
+        let (genes, features) = (self.space.lower.len(), self.space.features);
+        Best {
+            joints: &self.state.joints[slot * genes..(slot + 1) * genes],
+            fitness: self.state.fitness[slot],
+            observation: &self.state.observations[slot * features..(slot + 1) * features],
+            provenance: self.state.provenance[slot],
+        }
+    }
+
+    /// After a rejection: a random individual is drawn anew, a child's tournament is held again.
+    fn again(&mut self, slot: usize) {
+        let genes = self.space.lower.len();
+        let state = &mut self.state;
+        let own = slot * genes..(slot + 1) * genes;
+        if state.generation > 0 {
+            state.joints[own].copy_from_slice(&state.family[..genes]);
+            return;
+        }
+        for (gene, value) in state.joints[own].iter_mut().enumerate() {
+            *value = state.rng.between(self.space.lower[gene], self.space.upper[gene]);
+        }
+        state.waiting.insert(self.handed, Waiting { id: state.next_id, slot });
+        state.next_id += 1;
     }
 }
 
@@ -189,10 +215,15 @@ impl Optimizer for Sst {
                     return;
                 }
             }
+            Outcome::Penalised { fitness } => {
+                self.state.fitness[slot] = fitness;
+                self.state.provenance[slot] = Provenance::Penalised;
+            }
             Outcome::Failed => {
                 self.state.fitness[slot] = f64::INFINITY;
                 self.state.provenance[slot] = Provenance::Penalised;
             }
+            Outcome::Rejected => return self.again(slot),
         }
         if !self.state.waiting.is_empty() {
             return;
@@ -206,19 +237,8 @@ impl Optimizer for Sst {
     }
 
     fn best(&self) -> Option<Best<'_>> {
-        let (genes, features) = (self.space.lower.len(), self.space.features);
-        let hall = self.state.hall.as_ref().map(|hall| Best {
-            joints: &hall.joints,
-            fitness: hall.fitness,
-            observation: &hall.observation,
-            provenance: hall.provenance,
-        });
-        let current = self.best_slot().map(|slot| Best {
-            joints: &self.state.joints[slot * genes..(slot + 1) * genes],
-            fitness: self.state.fitness[slot],
-            observation: &self.state.observations[slot * features..(slot + 1) * features],
-            provenance: self.state.provenance[slot],
-        });
+        let hall = self.state.hall.as_ref().map(Hall::as_best);
+        let current = self.best_slot().map(|slot| self.as_best(slot));
         match (hall, current) {
             (Some(hall), Some(current)) => Some(if current.fitness < hall.fitness { current } else { hall }),
             (hall, current) => hall.or(current),
@@ -232,5 +252,23 @@ impl Optimizer for Sst {
     fn state(&self) -> OptimizerState {
         debug_assert_eq!(self.state.version, STATE_VERSION);
         OptimizerState::Sst(self.state.clone())
+    }
+
+    fn generation(&self) -> u64 {
+        self.state.generation
+    }
+
+    fn origins(&self, id: u64) -> [Option<&[f64]>; 2] {
+        let genes = self.space.lower.len();
+        let bred = self.state.generation > 0 && self.state.waiting.iter().any(|w| w.id == id);
+        let parent = |index: usize| bred.then(|| &self.state.family[index * genes..(index + 1) * genes]);
+        [parent(1), parent(2)]
+    }
+
+    fn amend(&mut self, id: u64, joints: &[f64]) {
+        if let Some(slot) = self.state.waiting.iter().find(|w| w.id == id).map(|w| w.slot) {
+            let genes = self.space.lower.len();
+            self.state.joints[slot * genes..(slot + 1) * genes].copy_from_slice(joints);
+        }
     }
 }

@@ -20,6 +20,8 @@ pub(super) struct Parents<'a> {
     pub upper: &'a [f64],
     /// First gene that the operators of the gene-0 quirk write: 1 with the quirk, else 0.
     pub first: usize,
+    /// Which parents share their memory with the child, by the shared-parent quirk.
+    pub shared: [bool; 2],
 }
 
 type Crossover = fn(&Parents<'_>, &mut [f64], &mut RandomStream);
@@ -80,7 +82,10 @@ fn arithmetic_single(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomS
     let (a, b) = swapped(parents, rng);
     let d = rng.below(child.len());
     child.copy_from_slice(a);
-    child[d] = share * b[d] + (1.0 - share) * a[d];
+    let overwritten = parents.shared[usize::from(std::ptr::eq(b, parents.p2))];
+    if !overwritten {
+        child[d] = share * b[d] + (1.0 - share) * a[d];
+    }
 }
 
 fn average(parents: &Parents<'_>, child: &mut [f64], _: &mut RandomStream) {

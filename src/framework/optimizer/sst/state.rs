@@ -1,6 +1,9 @@
 //! What a steady-state tournament remembers; saved and resumed as it is.
 
-use crate::framework::optimizer::{OptimizerError, Provenance, RandomStream, SearchSpace, StopReason};
+use crate::framework::optimizer::hall::Hall;
+use crate::framework::optimizer::{
+    OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null,
+};
 use serde::{Deserialize, Serialize};
 
 /// Version of [`SstState`]; changes when its meaning does.
@@ -11,15 +14,6 @@ pub(super) const STATE_VERSION: u32 = 1;
 pub(super) struct Waiting {
     pub id: u64,
     pub slot: usize,
-}
-
-/// The best of all generations.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Hall {
-    pub joints: Vec<f64>,
-    pub observation: Vec<f64>,
-    pub fitness: f64,
-    pub provenance: Provenance,
 }
 
 /// Everything a steady-state tournament remembers. Matrices are row-major, one row an individual.
@@ -35,6 +29,8 @@ pub struct SstState {
     pub(super) fitness: Vec<f64>,
     pub(super) provenance: Vec<Provenance>,
     pub(super) waiting: Vec<Waiting>,
+    /// While a child waits: the n genes it overwrote, then those of its two parents.
+    pub(super) family: Vec<f64>,
     pub(super) next_id: u64,
     pub(super) generation: u64,
     pub(super) iteration: u32,
@@ -56,6 +52,7 @@ impl SstState {
             fitness: vec![f64::INFINITY; population],
             provenance: vec![Provenance::Penalised; population],
             waiting: (0..population).map(|slot| Waiting { id: slot as u64, slot }).collect(),
+            family: vec![0.0; 3 * space.lower.len()],
             next_id: population as u64,
             generation: 0,
             iteration: 0,
@@ -76,6 +73,7 @@ impl SstState {
             ("provenances", self.provenance.len(), population),
             ("genes", self.joints.len(), population * space.lower.len()),
             ("observed values", self.observations.len(), population * space.features),
+            ("genes of a family", self.family.len(), 3 * space.lower.len()),
             ("waiting individuals", slots, self.waiting.len()),
             ("genes of the best", self.hall.as_ref().map_or(space.lower.len(), |h| h.joints.len()), space.lower.len()),
             (
@@ -89,19 +87,5 @@ impl SstState {
             }
         }
         Ok(())
-    }
-}
-
-/// JSON has no infinity: such a fitness is written as null.
-mod infinite_as_null {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(values.iter().map(|v| v.is_finite().then_some(*v)))
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
-        let values = Vec::<Option<f64>>::deserialize(deserializer)?;
-        Ok(values.into_iter().map(|v| v.unwrap_or(f64::INFINITY)).collect())
     }
 }

@@ -38,7 +38,8 @@ fn genes() -> impl Strategy<Value = Vec<f64>> {
 
 /// Runs operator `name` on parents p1 and p2 with the child slot at `old`.
 fn cross(name: &str, p1: &[f64], p2: &[f64], old: f64, first: usize, seed: u64) -> Vec<f64> {
-    let parents = Parents { p1, p2, fitness: [1.0, 2.0], lower: &[-0.26; 3], upper: &[1.75; 3], first };
+    let parents =
+        Parents { p1, p2, fitness: [1.0, 2.0], lower: &[-0.26; 3], upper: &[1.75; 3], first, shared: [false; 2] };
     let mut child = vec![old; 3];
     let operator = CROSSOVERS.iter().find(|(n, _)| *n == name).unwrap().1;
     operator(&parents, &mut child, &mut crate::framework::optimizer::RandomStream::new(seed, 0));
@@ -137,8 +138,8 @@ proptest! {
             told_in_parts += drive(&mut cut, sphere, budget);
             let mut batch = Batch::new(3, 3);
             cut.ask(&mut batch); // asked, lost with the process, asked again
-            let OptimizerState::Sst(state) =
-                serde_json::from_str(&serde_json::to_string(&cut.state()).unwrap()).unwrap();
+            let saved = serde_json::from_str(&serde_json::to_string(&cut.state()).unwrap()).unwrap();
+            let OptimizerState::Sst(state) = saved else { panic!("a tournament saves a tournament") };
             cut = Sst::resume(&spec, space(None), state).unwrap();
         }
         told_in_parts += drive(&mut cut, sphere, usize::MAX);

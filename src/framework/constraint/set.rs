@@ -1,0 +1,172 @@
+//! All constraints of a job together: how far a candidate is from satisfying each.
+//!
+//! A violation is 0 where satisfied and positive where not: metres outside a region, radians (or metres) above a step
+//! limit. A candidate is feasible exactly when every violation is 0.
+
+use super::error::ConstraintError;
+use super::geometry::{LEAST_VIOLATION, Region, finite, positive};
+use super::point::Point;
+use super::spec::ConstraintSpec;
+use crate::framework::robot::{Chain, RobotModel, RobotSpec};
+
+/// A candidate and what its constraints refer to; joints in gene order, rad or m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Proposal<'a> {
+    /// The candidate.
+    pub joints: &'a [f64],
+    /// The individuals it was bred from: none for a random one.
+    pub origins: [Option<&'a [f64]>; 2],
+    /// The joints appended for the previous goal, if any.
+    pub previous: Option<&'a [f64]>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Constraint {
+    Region { region: Region, point: Point },
+    PopulationVelocity { limit: f64 },
+    JointStep { limit: f64, start: Option<Vec<f64>> },
+}
+
+/// The constraints of a job, ready to be measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constraints(Vec<Constraint>);
+
+impl Constraints {
+    /// Prepares `specs` for a robot: `chain` is the one `robot` picks out of `model`.
+    ///
+    /// # Errors
+    /// [`ConstraintError`] with the numbers and what would do.
+    pub fn new(
+        specs: &[ConstraintSpec],
+        model: &RobotModel,
+        robot: &RobotSpec,
+        chain: &Chain,
+    ) -> Result<Self, ConstraintError> {
+        let prepare = |spec: &ConstraintSpec| match spec {
+            ConstraintSpec::Region(spec) => Ok(Constraint::Region {
+                region: Region::new(&spec.geometry)?,
+                point: Point::new(&spec.point, model, robot, chain)?,
+            }),
+            ConstraintSpec::PopulationVelocity(spec) => {
+                positive("limit_rad", spec.limit_rad)?;
+                Ok(Constraint::PopulationVelocity { limit: spec.limit_rad })
+            }
+            ConstraintSpec::JointStep(spec) => {
+                positive("limit_rad", spec.limit_rad)?;
+                if let Some(start) = &spec.start {
+                    finite("start", start)?;
+                    if start.len() != chain.len() {
+                        let (found, expected) = (start.len(), chain.len());
+                        return Err(ConstraintError::PoseLength { field: "start", found, expected });
+                    }
+                }
+                Ok(Constraint::JointStep { limit: spec.limit_rad, start: spec.start.clone() })
+            }
+        };
+        specs.iter().map(prepare).collect::<Result<_, _>>().map(Self)
+    }
+
+    /// Whether nothing is constrained.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The violations of `proposal`, one a constraint in the order given; 0 where satisfied.
+    pub fn violations(&self, proposal: &Proposal<'_>) -> impl Iterator<Item = f64> {
+        self.0.iter().map(|constraint| constraint.violation(proposal))
+    }
+
+    /// Whether every constraint is satisfied.
+    #[must_use]
+    pub fn is_feasible(&self, proposal: &Proposal<'_>) -> bool {
+        self.violations(proposal).all(|violation| violation == 0.0)
+    }
+}
+
+impl Constraint {
+    fn violation(&self, proposal: &Proposal<'_>) -> f64 {
+        match self {
+            Self::Region { region, point } => region.violation(&point.position(proposal.joints)),
+            Self::PopulationVelocity { limit } => {
+                let distance = |origin: &[f64]| proposal.joints.iter().zip(origin).map(|(c, o)| (c - o).abs()).sum();
+                let nearest = proposal.origins.iter().flatten().map(|o| distance(o)).reduce(f64::min);
+                match nearest {
+                    Some(distance) if distance >= *limit => (distance - limit).max(LEAST_VIOLATION),
+                    _ => 0.0,
+                }
+            }
+            Self::JointStep { limit, start } => {
+                let Some(from) = proposal.previous.or(start.as_deref()) else { return 0.0 };
+                let step = proposal.joints.iter().zip(from).map(|(c, o)| (c - o).abs()).fold(0.0, f64::max);
+                (step - limit).max(0.0)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures;
+    use super::super::spec::{GeometrySpec, JointStepSpec, PointSpec, PopulationVelocitySpec, RegionSpec};
+    use super::*;
+
+    fn set(specs: &[ConstraintSpec]) -> Constraints {
+        let arm = fixtures::arm();
+        Constraints::new(specs, &arm.model, &arm.robot, &arm.chain).unwrap()
+    }
+
+    fn alone<'a>(joints: &'a [f64]) -> Proposal<'a> {
+        Proposal { joints, origins: [None; 2], previous: None }
+    }
+
+    #[test]
+    fn velocity_asks_for_one_near_ancestor() {
+        let velocity = set(&[ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad: 0.5 })]);
+        let (near, far) = ([0.1, 0.2, 0.1], [1.0, 1.0, 1.0]);
+        let bred = |a, b| Proposal { joints: &[0.0; 3], origins: [a, b], previous: None };
+        assert!(velocity.is_feasible(&bred(Some(&near[..]), Some(&far[..]))));
+        assert!(velocity.is_feasible(&bred(Some(&far[..]), Some(&near[..]))));
+        assert!(velocity.is_feasible(&bred(None, None)), "a random initial population has no ancestors");
+        let violation: f64 = velocity.violations(&bred(Some(&far[..]), None)).sum();
+        assert!((violation - 2.5).abs() < 1e-12, "{violation}");
+        assert!(!velocity.is_feasible(&bred(Some(&[0.5, 0.0, 0.0]), None)), "the limit itself is too far");
+    }
+
+    #[test]
+    fn a_step_is_counted_from_the_previous_goal_else_from_the_start() {
+        let spec = JointStepSpec { limit_rad: 0.25, start: Some(vec![1.0; 3]) };
+        let step = set(&[ConstraintSpec::JointStep(spec)]);
+        let near = [1.25, 1.0, 0.75];
+        assert!(step.is_feasible(&alone(&near)));
+        let from_origin = Proposal { previous: Some(&[0.5, 1.0, 1.0]), ..alone(&near) };
+        assert!((step.violations(&from_origin).sum::<f64>() - 0.5).abs() < 1e-12);
+        let free = set(&[ConstraintSpec::JointStep(JointStepSpec { limit_rad: 0.25, start: None })]);
+        assert!(free.is_feasible(&alone(&[9.0; 3])), "the first goal is free without a start");
+    }
+
+    #[test]
+    fn violations_come_in_order() {
+        let geometry = GeometrySpec::Sphere { center_m: [0.0, -0.338, 0.7982], radius_m: 0.5 };
+        let region = ConstraintSpec::Region(RegionSpec { geometry, point: fixtures::constraint_point() });
+        let velocity = ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad: 1.0 });
+        let both = set(&[region, velocity]);
+        let found: Vec<f64> = both.violations(&alone(&[0.0; 3])).collect();
+        assert!((found[0] - 0.29821).abs() < 1e-9, "{found:?}");
+        assert_eq!(found[1].to_bits(), 0.0_f64.to_bits());
+        assert!(!both.is_feasible(&alone(&[0.0; 3])));
+    }
+
+    #[test]
+    fn limits_must_be_numbers_of_this_robot() {
+        let arm = fixtures::arm();
+        let refuse = |spec| Constraints::new(&[spec], &arm.model, &arm.robot, &arm.chain).unwrap_err().to_string();
+        let message = refuse(ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad: -1.0 }));
+        assert!(message.contains("-1"), "{message}");
+        let message = refuse(ConstraintSpec::JointStep(JointStepSpec { limit_rad: 1.0, start: Some(vec![0.0; 2]) }));
+        assert!(message.contains('2') && message.contains('3'), "{message}");
+        let geometry = GeometrySpec::Sphere { center_m: [0.0; 3], radius_m: f64::INFINITY };
+        let message = refuse(ConstraintSpec::Region(RegionSpec { geometry, point: PointSpec::Tool }));
+        assert!(message.contains("radius_m"), "{message}");
+    }
+}

@@ -1,0 +1,86 @@
+//! What the judge of one goal remembers; saved and resumed as it is.
+
+use super::penalty::PenaltyState;
+use crate::framework::optimizer::{Best, OptimizerError, OptimizerState, Provenance, RandomStream, SearchSpace, Tally};
+use serde::{Deserialize, Serialize};
+
+/// Version of [`ConstrainedState`]; changes when its meaning does.
+pub(super) const STATE_VERSION: u32 = 1;
+
+/// A candidate handed out and not told yet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Waiting {
+    pub id: u64,
+    pub joints: Vec<f64>,
+    /// One a constraint; empty where the candidate is feasible.
+    pub violations: Vec<f64>,
+}
+
+/// The best feasible candidate executed so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Known {
+    pub joints: Vec<f64>,
+    pub observation: Vec<f64>,
+    pub fitness: f64,
+    pub provenance: Provenance,
+}
+
+impl Known {
+    pub fn as_best(&self) -> Best<'_> {
+        Best {
+            joints: &self.joints,
+            fitness: self.fitness,
+            observation: &self.observation,
+            provenance: self.provenance,
+        }
+    }
+}
+
+/// Everything an optimiser under constraints remembers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConstrainedState {
+    pub(super) version: u32,
+    pub(super) inner: OptimizerState,
+    pub(super) rng: RandomStream,
+    pub(super) penalty: PenaltyState,
+    pub(super) generation: u64,
+    /// Rejections in a row.
+    pub(super) attempts: u32,
+    pub(super) waiting: Vec<Waiting>,
+    pub(super) known: Option<Known>,
+    /// The smallest violations of an infeasible candidate, one a constraint.
+    pub(super) nearest: Option<Vec<f64>>,
+    pub(super) tally: Tally,
+}
+
+impl ConstrainedState {
+    /// The state of the optimiser under constraints.
+    #[must_use]
+    pub fn inner(&self) -> &OptimizerState {
+        &self.inner
+    }
+
+    /// Name of the method under constraints.
+    #[must_use]
+    pub fn method(&self) -> &'static str {
+        self.inner.method()
+    }
+
+    pub(super) fn check(&self, space: &SearchSpace) -> Result<(), OptimizerError> {
+        let method = self.method();
+        if self.version != STATE_VERSION {
+            return Err(OptimizerError::Version { method, found: self.version, expected: STATE_VERSION });
+        }
+        let genes = self.known.as_ref().map_or(space.lower.len(), |known| known.joints.len());
+        let features = self.known.as_ref().map_or(space.features, |known| known.observation.len());
+        for (what, found, expected) in
+            [("genes of the best", genes, space.lower.len()), ("features of the best", features, space.features)]
+        {
+            if found != expected {
+                return Err(OptimizerError::Shape { method, what, found, expected });
+            }
+        }
+        Ok(())
+    }
+}

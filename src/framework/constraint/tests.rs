@@ -1,0 +1,259 @@
+//! Promises of the strategies, for every geometry and optimiser: what is executed, what wins, what is told when nothing
+//! is feasible, and that bits depend on neither batch sizes nor interruptions.
+
+use super::fixtures;
+use super::*;
+use crate::framework::execution::{Iet, Observations, Problem, ProblemError, RunResult, run, simulate};
+use crate::framework::optimizer::{Batch, MethodSpec, Optimizer, Outcome, Provenance, SearchSpace, start};
+use crate::framework::preset::shipped;
+use crate::framework::robot::Chain;
+use crate::framework::world;
+use proptest::prelude::*;
+
+/// Regions that hold the first wax goals and cut the reachable space in different ways.
+fn geometries() -> [ConstraintSpec; 6] {
+    let region = |geometry| ConstraintSpec::Region(RegionSpec { geometry, point: fixtures::constraint_point() });
+    let (lower_m, upper_m) = ([0.235, -0.62, 0.292], [0.463, -0.435, 0.306]);
+    let corners = (0..8).map(|c: usize| [0, 1, 2].map(|k| if c >> k & 1 == 0 { lower_m[k] } else { upper_m[k] }));
+    let half = |normal, offset_m| HalfSpace { normal, offset_m };
+    [
+        region(GeometrySpec::Box { lower_m, upper_m, dilatation_m: 0.2 }),
+        region(GeometrySpec::Sphere { center_m: [0.35, -0.5, 0.3], radius_m: 0.3 }),
+        region(GeometrySpec::Hull { points_m: corners.collect(), dilatation_m: 0.15 }),
+        region(GeometrySpec::Polyhedron {
+            half_spaces: vec![half([-1.0, 0.0, 0.0], -0.1), half([1.0, 1.0, 1.0], 0.5)],
+        }),
+        ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad: 0.7 }),
+        ConstraintSpec::JointStep(JointStepSpec { limit_rad: 0.4, start: Some(vec![0.5, 0.5, 0.8]) }),
+    ]
+}
+
+fn penalty(form: PenaltyForm, penalty: PenaltyKind) -> HandlingSpec {
+    HandlingSpec::Penalty(PenaltySpec { form, penalty })
+}
+
+/// Strategies that execute nothing infeasible.
+fn hard() -> [HandlingSpec; 4] {
+    [
+        HandlingSpec::Rejecting { max_attempts: 200 },
+        HandlingSpec::Repairing { max_attempts: 200 },
+        HandlingSpec::Operators { max_attempts: 200 },
+        penalty(PenaltyForm::Additive, PenaltyKind::Death { value: 1e6 }),
+    ]
+}
+
+/// Strategies that execute infeasible candidates and tell them worse.
+fn soft() -> [HandlingSpec; 4] {
+    [
+        penalty(PenaltyForm::Additive, PenaltyKind::Static { weight: 1e3, exponent: 2.0 }),
+        penalty(PenaltyForm::Multiplicative, PenaltyKind::Dynamic { weight: 0.5, growth: 2.0, exponent: 2.0 }),
+        penalty(PenaltyForm::Additive, PenaltyKind::Adaptive { weight: 10.0, window: 2, relax: 2.0, tighten: 3.0 }),
+        penalty(PenaltyForm::Multiplicative, PenaltyKind::Annealing { temperature: 1.0, cooling: 0.7, frozen: 1e-6 }),
+    ]
+}
+
+fn problem(method: &str, constraint: ConstraintSpec, handling: HandlingSpec) -> Problem {
+    let mut problem = shipped("wax").unwrap().problem;
+    let mut chosen = MethodSpec::by_name(method).unwrap();
+    match &mut chosen {
+        MethodSpec::Sst(spec) => spec.population = 12,
+        MethodSpec::Pso(spec) => spec.swarm.population = 12,
+        MethodSpec::FiPso(spec) => spec.swarm.population = 12,
+        MethodSpec::AffgPso(spec) => spec.swarm.population = 12,
+    }
+    problem.execution.method = chosen;
+    problem.execution.constraints = vec![constraint];
+    problem.execution.handling = handling;
+    problem
+}
+
+/// All that was executed, by goal, until the run ended or `most` executions.
+fn executed(problem: &Problem, seed: u64, most: usize) -> (Vec<Vec<Vec<f64>>>, Result<(), ProblemError>) {
+    let mut iet = Iet::new(problem, seed).unwrap();
+    let mut world = world::build(&problem.world, iet.chain()).unwrap();
+    let features = iet.world_features();
+    let (mut all, mut count) = (vec![Vec::new()], 0);
+    let mut batch = Batch::new(3, 8);
+    let mut observations = Observations::new(3, features, Provenance::Simulated);
+    while !iet.is_finished() && count < most {
+        batch.clear(8);
+        iet.ask(&mut batch);
+        observations.clear();
+        for (id, joints) in batch.iter() {
+            world.observe(joints, observations.observed(id, joints));
+            all.last_mut().unwrap().push(joints.to_vec());
+            count += 1;
+        }
+        let goals = iet.prefix().len();
+        if let Err(error) = iet.tell(&observations) {
+            return (all, Err(error));
+        }
+        if iet.prefix().len() > goals {
+            all.push(Vec::new());
+        }
+    }
+    (all, Ok(()))
+}
+
+fn constraints_of(problem: &Problem) -> (Constraints, Chain) {
+    let arm = fixtures::arm();
+    let constraints = Constraints::new(&problem.execution.constraints, &arm.model, &arm.robot, &arm.chain).unwrap();
+    (constraints, arm.chain)
+}
+
+/// Whether goal winners satisfy the constraints, each seen from the one before.
+fn winners_are_feasible(problem: &Problem, result: &RunResult) -> bool {
+    let (constraints, _) = constraints_of(problem);
+    let mut previous: Option<&[f64]> = None;
+    result.goals.iter().all(|goal| {
+        let proposal = Proposal { joints: &goal.joints, origins: [None; 2], previous };
+        previous = Some(&goal.joints);
+        goal.feasible && constraints.is_feasible(&proposal)
+    })
+}
+
+const METHODS: [&str; 4] = ["sst", "pso", "fi_pso", "affg_pso"];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+
+    /// Velocity is judged against ancestors that are gone by then: the judge's own tests cover it.
+    #[test]
+    fn hard_strategies_execute_nothing_infeasible(seed: u64) {
+        for geometry in geometries() {
+            for handling in hard() {
+                for method in METHODS {
+                    let problem = problem(method, geometry.clone(), handling.clone());
+                    let (constraints, _) = constraints_of(&problem);
+                    let (goals, _) = executed(&problem, seed, 300);
+                    if !matches!(geometry, ConstraintSpec::JointStep(_)) {
+                        for joints in goals.iter().flatten() {
+                            let proposal = Proposal { joints, origins: [None; 2], previous: None };
+                            prop_assert!(constraints.is_feasible(&proposal), "{method} {handling:?} {geometry:?}");
+                        }
+                    } else {
+                        for joints in &goals[0] {
+                            let proposal = Proposal { joints, origins: [None; 2], previous: None };
+                            prop_assert!(constraints.is_feasible(&proposal), "{method} {handling:?} {geometry:?}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_winner_is_feasible_or_the_run_says_it_has_none(seed: u64, which in 0_usize..6, how in 0_usize..8) {
+        let handling = [hard(), soft()].concat()[how].clone();
+        for method in METHODS {
+            let problem = problem(method, geometries()[which].clone(), handling.clone());
+            match run(&problem, seed) {
+                Ok(result) => {
+                    prop_assert!(winners_are_feasible(&problem, &result) && result.valid, "{method} {handling:?}");
+                    prop_assert_eq!(result.tally.simulated, result.evaluations);
+                }
+                Err(ProblemError::Infeasible { nearest, .. }) => prop_assert!(nearest[0] > 0.0),
+                Err(error) => prop_assert!(false, "{error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn interrupted_anywhere_a_constrained_run_ends_with_the_same_digest(
+        seed: u64, which in 0_usize..6, how in 0_usize..8, cuts in prop::collection::vec(1_u64..60, 1..6)
+    ) {
+        let handling = [hard(), soft()].concat()[how].clone();
+        let problem = problem(METHODS[which % 4], geometries()[which].clone(), handling);
+        let whole = run(&problem, seed);
+        let mut iet = Iet::new(&problem, seed).unwrap();
+        for budget in cuts {
+            let mut world = world::build(&problem.world, iet.chain()).unwrap();
+            if simulate(&mut iet, world.as_mut(), budget).is_err() {
+                prop_assert!(whole.is_err());
+                return Ok(());
+            }
+            let saved = serde_json::to_string(&iet.state()).unwrap();
+            iet = Iet::resume(&problem, serde_json::from_str(&saved).unwrap()).unwrap();
+        }
+        let mut world = world::build(&problem.world, iet.chain()).unwrap();
+        match (simulate(&mut iet, world.as_mut(), u64::MAX), whole) {
+            (Ok(_), Ok(whole)) => prop_assert_eq!(iet.finish().unwrap(), whole),
+            (sliced, whole) => prop_assert!(sliced.is_err() && whole.is_err()),
+        }
+    }
+}
+
+#[test]
+fn children_of_a_velocity_limit_stay_near_an_ancestor() {
+    let limit = ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad: 0.8 });
+    for handling in hard() {
+        for method in METHODS {
+            let problem = problem(method, limit.clone(), handling.clone());
+            let (constraints, chain) = constraints_of(&problem);
+            let space = SearchSpace {
+                lower: chain.genes().iter().map(|g| g.lower).collect(),
+                upper: chain.genes().iter().map(|g| g.upper).collect(),
+                features: 1,
+                target: None,
+            };
+            let inner = start(&problem.execution.method, space.clone(), 5, 0).unwrap();
+            let rules = Rules {
+                constraints: std::sync::Arc::new(constraints.clone()),
+                handling: handling.clone(),
+                on_infeasible: OnInfeasible::Stop,
+                previous: None,
+            };
+            let mut judged: Box<dyn Optimizer> = Box::new(Constrained::new(inner, rules, space, 5, 0));
+            let mut batch = Batch::new(3, 1);
+            let mut bred = 0;
+            while judged.stop().is_none() && bred < 200 {
+                batch.clear(1);
+                judged.ask(&mut batch);
+                let Some((id, joints)) = batch.iter().next() else { break };
+                let origins = judged.origins(id);
+                bred += u32::from(origins[0].is_some());
+                let proposal = Proposal { joints, origins, previous: None };
+                assert!(constraints.is_feasible(&proposal), "{method} {handling:?}");
+                let fitness: f64 = joints.iter().map(|q| (q - 0.4).powi(2)).sum();
+                let provenance = Provenance::Simulated;
+                let seen = [fitness];
+                judged.tell(id, Outcome::Observed { fitness, observation: &seen, provenance });
+            }
+            assert!(bred >= 5, "{method} {handling:?}: {bred}");
+        }
+    }
+}
+
+#[test]
+fn nothing_feasible_is_told_and_does_not_hang() {
+    let nowhere = || {
+        let geometry = GeometrySpec::Sphere { center_m: [9.0, 9.0, 9.0], radius_m: 0.1 };
+        ConstraintSpec::Region(RegionSpec { geometry, point: PointSpec::Tool })
+    };
+    for handling in [hard(), soft()].concat() {
+        for method in METHODS {
+            let mut problem = problem(method, nowhere(), handling.clone());
+            let error = run(&problem, 1).unwrap_err();
+            let ProblemError::Infeasible { goal: 0, nearest, .. } = &error else { panic!("{method} {error}") };
+            assert!(nearest[0] > 10.0, "{method} {handling:?}: {nearest:?} m");
+            assert!(error.to_string().contains("max_attempts"), "{error}");
+            problem.execution.on_infeasible = OnInfeasible::Append;
+            match run(&problem, 1) {
+                Ok(result) => assert!(!result.valid && result.goals.iter().all(|goal| !goal.feasible)),
+                // a rejected candidate has no fitness at all, so that there is nothing to append
+                Err(error) => {
+                    assert!(matches!(error, ProblemError::Infeasible { .. }), "{method} {handling:?} {error}")
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn unexecuted_winners_and_constraints_exclude_each_other() {
+    let mut preset = shipped("paper-wax").unwrap();
+    assert!(preset.select_method("affg_pso"));
+    preset.problem.execution.constraints = geometries()[..1].to_vec();
+    let error = Iet::new(&preset.problem, 1).err().unwrap().to_string();
+    assert!(error.contains("unexecuted_may_win"), "{error}");
+}

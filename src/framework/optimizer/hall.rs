@@ -1,0 +1,35 @@
+//! The hall of fame: the best individual of all generations.
+
+use super::{Best, Provenance};
+use serde::{Deserialize, Serialize};
+
+/// The best of all generations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Hall {
+    pub joints: Vec<f64>,
+    pub observation: Vec<f64>,
+    pub fitness: f64,
+    pub provenance: Provenance,
+}
+
+impl Hall {
+    pub fn as_best(&self) -> Best<'_> {
+        Best {
+            joints: &self.joints,
+            fitness: self.fitness,
+            observation: &self.observation,
+            provenance: self.provenance,
+        }
+    }
+}
+
+impl From<Best<'_>> for Hall {
+    fn from(best: Best<'_>) -> Self {
+        Self {
+            joints: best.joints.to_vec(),
+            observation: best.observation.to_vec(),
+            fitness: best.fitness,
+            provenance: best.provenance,
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! PSO, particle swarm optimisation: every moved particle is executed.
+//!
+//! The published runs used ECF's swarm with w = 1.2, |v| <= 5 degrees a generation, open positions, C1 = C2 = 2, one
+//! random pair a particle, the currently best particle as leader, and memories that begin at random near 0: all named
+//! options of [`SwarmSpec`](super::SwarmSpec). Movement and sources: the swarm's `movement` module.
+
+use super::swarm::{Estimator, Flight, Swarm, SwarmState};
+use super::{Optimizer, OptimizerError, OptimizerState, Provenance, PsoSpec, RandomStream, SearchSpace};
+
+/// Estimates nothing.
+#[derive(Debug)]
+struct Execute;
+
+impl Estimator for Execute {
+    const METHOD: &'static str = "pso";
+    const PROVENANCE: Provenance = Provenance::Inherited;
+
+    fn depends_on_order(&self) -> bool {
+        false
+    }
+    fn may_win(&self) -> bool {
+        false
+    }
+    fn begin(&mut self, _: &[f64]) {}
+    fn estimate(&mut self, _: &Flight<'_>, _: &mut RandomStream) -> Option<f64> {
+        None
+    }
+    fn executed(&mut self, _: &[f64], _: f64) {}
+    fn save(&self, swarm: SwarmState) -> OptimizerState {
+        OptimizerState::Pso(swarm)
+    }
+}
+
+/// A fresh search.
+///
+/// # Errors
+/// [`OptimizerError::Parameter`] for a parameter out of its range.
+pub(super) fn start(
+    spec: &PsoSpec,
+    space: SearchSpace,
+    seed: u64,
+    stream: u64,
+) -> Result<Box<dyn Optimizer>, OptimizerError> {
+    Ok(Box::new(Swarm::new(&spec.swarm, Execute, space, seed, stream)?))
+}
+
+/// Goes on from a saved state.
+///
+/// # Errors
+/// [`OptimizerError`] if the state's version or shape does not fit.
+pub(super) fn resume(
+    spec: &PsoSpec,
+    space: SearchSpace,
+    state: SwarmState,
+) -> Result<Box<dyn Optimizer>, OptimizerError> {
+    Ok(Box::new(Swarm::resume(&spec.swarm, Execute, space, state)?))
+}
