@@ -254,7 +254,7 @@ fn sampled(
 
 impl Optimizer for Constrained {
     fn ask(&mut self, batch: &mut Batch) {
-        while !batch.is_full() && !(self.sequential() && !self.state.waiting.is_empty()) {
+        while !batch.is_full() && (self.state.waiting.is_empty() || !self.sequential()) {
             self.proposed.clear(1);
             self.inner.ask(&mut self.proposed);
             let Some((id, joints)) = self.proposed.iter().next().map(|(id, joints)| (id, joints.to_vec())) else {

@@ -22,7 +22,7 @@ pub struct Proposal<'a> {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Constraint {
-    Region { region: Region, point: Point },
+    Region { region: Region, point: Box<Point> },
     PopulationVelocity { limit: f64 },
     JointStep { limit: f64, start: Option<Vec<f64>> },
 }
@@ -45,7 +45,7 @@ impl Constraints {
         let prepare = |spec: &ConstraintSpec| match spec {
             ConstraintSpec::Region(spec) => Ok(Constraint::Region {
                 region: Region::new(&spec.geometry)?,
-                point: Point::new(&spec.point, model, robot, chain)?,
+                point: Box::new(Point::new(&spec.point, model, robot, chain)?),
             }),
             ConstraintSpec::PopulationVelocity(spec) => {
                 positive("limit_rad", spec.limit_rad)?;
@@ -116,7 +116,7 @@ mod tests {
         Constraints::new(specs, &arm.model, &arm.robot, &arm.chain).unwrap()
     }
 
-    fn alone<'a>(joints: &'a [f64]) -> Proposal<'a> {
+    fn alone(joints: &[f64]) -> Proposal<'_> {
         Proposal { joints, origins: [None; 2], previous: None }
     }
 

@@ -117,7 +117,7 @@ const METHODS: [&str; 4] = ["sst", "pso", "fi_pso", "affg_pso"];
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
 
-    /// Velocity is judged against ancestors that are gone by then: the judge's own tests cover it.
+    /// The velocity limit refers to ancestors; `children_of_a_velocity_limit` covers it.
     #[test]
     fn hard_strategies_execute_nothing_infeasible(seed: u64) {
         for geometry in geometries() {
@@ -126,16 +126,11 @@ proptest! {
                     let problem = problem(method, geometry.clone(), handling.clone());
                     let (constraints, _) = constraints_of(&problem);
                     let (goals, _) = executed(&problem, seed, 300);
-                    if !matches!(geometry, ConstraintSpec::JointStep(_)) {
-                        for joints in goals.iter().flatten() {
-                            let proposal = Proposal { joints, origins: [None; 2], previous: None };
-                            prop_assert!(constraints.is_feasible(&proposal), "{method} {handling:?} {geometry:?}");
-                        }
-                    } else {
-                        for joints in &goals[0] {
-                            let proposal = Proposal { joints, origins: [None; 2], previous: None };
-                            prop_assert!(constraints.is_feasible(&proposal), "{method} {handling:?} {geometry:?}");
-                        }
+                    // later goals step from winners this test does not know; `every_winner` follows those
+                    let judged = if matches!(geometry, ConstraintSpec::JointStep(_)) { 1 } else { goals.len() };
+                    for joints in goals[..judged].iter().flatten() {
+                        let proposal = Proposal { joints, origins: [None; 2], previous: None };
+                        prop_assert!(constraints.is_feasible(&proposal), "{method} {handling:?} {geometry:?}");
                     }
                 }
             }
@@ -242,7 +237,7 @@ fn nothing_feasible_is_told_and_does_not_hang() {
                 Ok(result) => assert!(!result.valid && result.goals.iter().all(|goal| !goal.feasible)),
                 // a rejected candidate has no fitness at all, so that there is nothing to append
                 Err(error) => {
-                    assert!(matches!(error, ProblemError::Infeasible { .. }), "{method} {handling:?} {error}")
+                    assert!(matches!(error, ProblemError::Infeasible { .. }), "{method} {handling:?} {error}");
                 }
             }
         }

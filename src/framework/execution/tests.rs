@@ -82,8 +82,8 @@ fn tournament(problem: &mut Problem) -> &mut SstSpec {
 /// Each peculiarity of the published runs matters, by about as much as an independent implementation found.
 #[test]
 fn the_quirks_matter_in_direction_and_size() {
-    type Change = fn(&mut Problem);
-    let cases: [(&str, &str, Change, Option<f64>, Option<f64>); 5] = [
+    type Case = (&'static str, &'static str, fn(&mut Problem), Option<f64>, Option<f64>);
+    let cases: [Case; 5] = [
         ("strict stagnation", "sst", |p| tournament(p).stagnation = 2, Some(0.64), None),
         ("no gene-0 quirk", "sst", |p| tournament(p).ecf_gene0_quirk = false, Some(1.17), Some(0.89)),
         ("memory at the position", "pso", |p| swarm(p).ecf_memory_quirk = false, None, Some(0.41)),

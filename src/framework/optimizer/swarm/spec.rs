@@ -8,6 +8,7 @@ use utoipa::ToSchema;
 /// constriction (chi = 0.7298, 2.05 chi = 1.49618), global best, velocity within the gene's range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a named peculiarity of the published runs")]
 pub struct SwarmSpec {
     /// Particles P (at least 2).
     pub population: u32,
