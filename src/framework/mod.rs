@@ -10,6 +10,7 @@
 pub mod constraint;
 pub mod demonstration;
 pub mod execution;
+pub mod experiment;
 pub mod feature;
 pub mod generalization;
 pub mod job;

@@ -1,0 +1,243 @@
+//! The parts figures are made of: a page, a panel with labelled axes, markers, lines with their own marker, a legend.
+
+use super::FigureError;
+use super::style::{GRID, INK, colour, heading, text};
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
+use plotters::element::{Circle, PathElement, Polygon, Rectangle, Text};
+use plotters::prelude::{Cartesian2d, DrawingBackend, SVGBackend};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, RGBColor, WHITE};
+
+pub(super) type Area<'b> = DrawingArea<SVGBackend<'b>, Shift>;
+pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+pub(super) type Drawn<'b, T = ()> = Result<T, DrawingAreaErrorKind<<SVGBackend<'b> as DrawingBackend>::ErrorType>>;
+
+/// One axis: what it shows with its unit, from where to where, how many ticks about, decimals of their labels.
+#[derive(Debug, Clone)]
+pub(super) struct Axis {
+    pub label: String,
+    pub range: [f64; 2],
+    pub ticks: usize,
+    pub decimals: usize,
+}
+
+/// An SVG of `size` px with `title` for readers and screen readers; `draw` fills the page below the title.
+pub(super) fn page(
+    title: &str,
+    size: (u32, u32),
+    draw: impl for<'b> FnOnce(&Area<'b>) -> Drawn<'b>,
+) -> Result<String, FigureError> {
+    let mut svg = String::new();
+    let drawn = {
+        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        let fill = |root: &Area<'_>| {
+            root.fill(&WHITE)?;
+            let below = root.titled(title, heading(40))?;
+            draw(&below)?;
+            root.present()
+        };
+        fill(&root).map_err(|source| source.to_string())
+    };
+    drawn.map_err(|message| FigureError::Drawing { title: title.to_owned(), message })?;
+    Ok(svg.replacen(">\n", &format!(" role=\"img\">\n<title>{}</title>\n", escape(title)), 1))
+}
+
+fn escape(title: &str) -> String {
+    title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Room around a panel for its tick labels and axis names, px.
+pub(super) const LEFT: u32 = 140;
+pub(super) const BOTTOM: u32 = 96;
+pub(super) const TOP: u32 = 64;
+pub(super) const RIGHT: u32 = 30;
+
+/// Axes with a grid on `area`.
+pub(super) fn panel<'a, 'b>(area: &'a Area<'b>, title: &str, x: &Axis, y: &Axis) -> Drawn<'b, Chart<'a, 'b>> {
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(TOP)
+        .margin_right(RIGHT)
+        .set_left_and_bottom_label_area_size(0)
+        .x_label_area_size(BOTTOM)
+        .y_label_area_size(LEFT)
+        .build_cartesian_2d(x.range[0]..x.range[1], y.range[0]..y.range[1])?;
+    chart
+        .configure_mesh()
+        .x_labels(x.ticks)
+        .y_labels(y.ticks)
+        .max_light_lines(0)
+        .bold_line_style(GRID.stroke_width(2))
+        .axis_style(INK.stroke_width(2))
+        .label_style(text(30))
+        .axis_desc_style(text(34))
+        .x_desc(&x.label)
+        .y_desc(&y.label)
+        .x_label_formatter(&|value| number(*value, x.decimals))
+        .y_label_formatter(&|value| number(*value, y.decimals))
+        .draw()?;
+    let style = heading(34).pos(Pos::new(HPos::Left, VPos::Top));
+    area.draw(&Text::new(title.to_owned(), (pixels(LEFT), 14), style))?;
+    Ok(chart)
+}
+
+/// `value` with thin groups of three and a true minus.
+fn number(value: f64, decimals: usize) -> String {
+    let plain = format!("{:.decimals$}", value.abs());
+    let (whole, fraction) = plain.split_once('.').map_or((plain.as_str(), None), |(w, f)| (w, Some(f)));
+    let mut grouped = String::new();
+    for (index, digit) in whole.chars().enumerate() {
+        if index > 0 && (whole.len() - index).is_multiple_of(3) {
+            grouped.push('\u{202f}');
+        }
+        grouped.push(digit);
+    }
+    let sign = if value < 0.0 && plain.chars().any(|c| ('1'..='9').contains(&c)) { "\u{2212}" } else { "" };
+    fraction.map_or_else(|| format!("{sign}{grouped}"), |fraction| format!("{sign}{grouped}.{fraction}"))
+}
+
+pub(super) fn pixels(value: u32) -> i32 {
+    i32::try_from(value).unwrap_or(i32::MAX)
+}
+
+/// Corners of the marker of series `index` around the origin, px; none for the circle.
+fn corners(index: usize, size: i32) -> Option<Vec<(i32, i32)>> {
+    let (s, t) = (size, size * 9 / 10);
+    Some(match index % 7 {
+        0 => return None,
+        1 => vec![(-t, -t), (t, -t), (t, t), (-t, t)],
+        2 => vec![(0, -s - 2), (s + 1, t), (-s - 1, t)],
+        3 => vec![(0, -s - 3), (s + 3, 0), (0, s + 3), (-s - 3, 0)],
+        4 => vec![(0, s + 2), (s + 1, -t), (-s - 1, -t)],
+        5 => vec![(-s - 2, 0), (t, -s - 1), (t, s + 1)],
+        _ => vec![(s + 2, 0), (-t, -s - 1), (-t, s + 1)],
+    })
+}
+
+/// Draws the marker of series `index` at a pixel; hollow ones are outlines.
+pub(super) fn marker<'b>(area: &Area<'b>, index: usize, at: (i32, i32), size: i32, hollow: bool) -> Drawn<'b> {
+    let ink = colour(index);
+    match (corners(index, size), hollow) {
+        (None, true) => area.draw(&Circle::new(at, size, ink.stroke_width(4))),
+        (None, false) => area.draw(&Circle::new(at, size, ink.filled())),
+        (Some(corners), hollow) => {
+            let mut around: Vec<_> = corners.iter().map(|(x, y)| (at.0 + x, at.1 + y)).collect();
+            if hollow {
+                around.extend_from_within(..2);
+                area.draw(&PathElement::new(around, ink.stroke_width(4)))
+            } else {
+                area.draw(&Polygon::new(around, ink.filled()))
+            }
+        }
+    }
+}
+
+/// A line of series `index` through `points` with its marker at each.
+pub(super) fn line<'b>(area: &Area<'b>, chart: &Chart<'_, 'b>, index: usize, points: &[(f64, f64)]) -> Drawn<'b> {
+    plain_line(chart, points, colour(index), 5)?;
+    points.iter().try_for_each(|point| marker(area, index, pixel(area, chart, *point), 10, false))
+}
+
+/// A line without markers.
+pub(super) fn plain_line<'b>(chart: &Chart<'_, 'b>, points: &[(f64, f64)], ink: RGBColor, width: u32) -> Drawn<'b> {
+    chart.plotting_area().draw(&PathElement::new(points.to_vec(), ink.stroke_width(width)))
+}
+
+/// A filled square.
+pub(super) fn square<'b>(area: &Area<'b>, (x, y): (i32, i32), half: i32, ink: RGBColor) -> Drawn<'b> {
+    area.draw(&Rectangle::new([(x - half, y - half), (x + half, y + half)], ink.filled()))
+}
+
+/// A number in a ring.
+pub(super) fn numbered<'b>(area: &Area<'b>, at: (i32, i32), number: usize) -> Drawn<'b> {
+    area.draw(&Circle::new(at, 17, WHITE.mix(0.85).filled()))?;
+    area.draw(&Circle::new(at, 17, INK.stroke_width(3)))?;
+    let style = heading(24).pos(Pos::new(HPos::Center, VPos::Center));
+    area.draw(&Text::new(number.to_string(), at, style))
+}
+
+/// Where a point of the chart lies on `area`, px.
+pub(super) fn pixel(area: &Area<'_>, chart: &Chart<'_, '_>, point: (f64, f64)) -> (i32, i32) {
+    let on_page = chart.backend_coord(&point);
+    let (x, y) = area.get_base_pixel();
+    (on_page.0 - x, on_page.1 - y)
+}
+
+/// What a legend's entry stands for.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Sample {
+    /// The line and marker of a series.
+    Series(usize),
+    /// A hollow marker of a series.
+    Hollow(usize),
+    /// A plain line.
+    Line(RGBColor),
+    /// The marker of a series alone.
+    Marker(usize),
+    /// A plain line with squares.
+    Square(RGBColor),
+    /// A ringed number.
+    Numbered,
+}
+
+/// Entries one below the other, the first at `at` (px on `area`).
+pub(super) fn legend<'b>(area: &Area<'b>, at: (i32, i32), entries: &[(Sample, String)]) -> Drawn<'b> {
+    for (row, (sample, name)) in (0..).zip(entries) {
+        let (x, y) = (at.0, at.1 + row * 44);
+        let stroke = |ink: RGBColor| PathElement::new(vec![(x, y), (x + 60, y)], ink.stroke_width(5));
+        match *sample {
+            Sample::Series(index) => {
+                area.draw(&stroke(colour(index)))?;
+                marker(area, index, (x + 30, y), 10, false)?;
+            }
+            Sample::Hollow(index) => marker(area, index, (x + 30, y), 13, true)?,
+            Sample::Line(ink) => area.draw(&stroke(ink))?,
+            Sample::Marker(index) => marker(area, index, (x + 30, y), 11, false)?,
+            Sample::Square(ink) => {
+                area.draw(&stroke(ink))?;
+                square(area, (x + 30, y), 9, ink)?;
+            }
+            Sample::Numbered => numbered(area, (x + 30, y), 1)?,
+        }
+        let style = text(32).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new(name.clone(), (x + 78, y), style))?;
+    }
+    Ok(())
+}
+
+/// A range a little wider than `values`; [0, 1] where there is none.
+pub(super) fn range_of(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for value in values {
+        range = [range[0].min(value), range[1].max(value)];
+    }
+    if !(range[0].is_finite() && range[1].is_finite()) {
+        return [0.0, 1.0];
+    }
+    let margin = if range[1] > range[0] { (range[1] - range[0]) * 0.05 } else { 0.5 };
+    [range[0] - margin, range[1] + margin]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(12345.0, 0, "12\u{202f}345")]
+    #[case(-0.04, 1, "0.0")]
+    #[case(-1234.5, 1, "\u{2212}1\u{202f}234.5")]
+    #[case(999.0, 0, "999")]
+    fn numbers_are_legible(#[case] value: f64, #[case] decimals: usize, #[case] shown: &str) {
+        assert_eq!(number(value, decimals), shown);
+    }
+
+    #[test]
+    fn ranges_hold_their_values() {
+        assert_eq!(range_of([]), [0.0, 1.0]);
+        assert_eq!(range_of([3.0]), [2.5, 3.5]);
+        assert_eq!(range_of([0.0, 10.0]), [-0.5, 10.5]);
+    }
+}

@@ -1,0 +1,32 @@
+//! The paper's figures as SVG text.
+//!
+//! # Architecture Invariants
+//! - Pure: data in, a string out; the same data give the same bytes.
+//! - Axes name their quantity and unit; series differ by marker as well as by colour.
+
+mod accumulation;
+mod canvas;
+mod coverage;
+mod demonstrations;
+mod style;
+#[cfg(test)]
+mod tests;
+mod trail;
+
+pub use accumulation::{Accumulation, AccumulationPanel, accumulation};
+pub use coverage::{Coverage, coverage};
+pub use demonstrations::{Generalization, demonstrations};
+pub use trail::{Trail, trails};
+
+/// Why a figure could not be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FigureError {
+    /// The drawing library refused.
+    #[error("figure {title:?} could not be drawn: {message}")]
+    Drawing {
+        /// Title of the figure.
+        title: String,
+        /// The library's words.
+        message: String,
+    },
+}

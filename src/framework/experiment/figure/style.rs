@@ -1,0 +1,52 @@
+//! How every figure looks: sizes, text and a palette that colour-blind readers can tell apart; no figure relies on
+//! colour alone (each series has its own marker).
+//!
+//! Palette: M. Okabe, K. Ito, "Color Universal Design", 2008 (yellow left out: too pale on white).
+
+use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBAColor, RGBColor, TextStyle};
+
+/// Width of every figure and height of one panel, px: twice the size they are meant to be seen at, because the drawing
+/// library rounds coordinates to whole pixels.
+pub(super) const WIDTH: u32 = 1600;
+pub(super) const HEIGHT: u32 = 1000;
+
+const PALETTE: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
+];
+
+/// Text, axes.
+pub(super) const INK: RGBColor = RGBColor(34, 34, 34);
+/// What is behind the message: demonstrations, references.
+pub(super) const GREY: RGBColor = RGBColor(150, 150, 150);
+/// Grid lines.
+pub(super) const GRID: RGBColor = RGBColor(226, 226, 226);
+
+/// Colour of series `index`.
+pub(super) fn colour(index: usize) -> RGBColor {
+    PALETTE[index % PALETTE.len()]
+}
+
+/// Colour of the band around series `index`.
+pub(super) fn band_colour(index: usize) -> RGBAColor {
+    colour(index).mix(0.13)
+}
+
+/// Text of `size` px.
+pub(super) fn text(size: u32) -> TextStyle<'static> {
+    styled(size, FontStyle::Normal)
+}
+
+/// Heading of `size` px.
+pub(super) fn heading(size: u32) -> TextStyle<'static> {
+    styled(size, FontStyle::Bold)
+}
+
+fn styled(size: u32, style: FontStyle) -> TextStyle<'static> {
+    TextStyle::from(FontDesc::new(FontFamily::SansSerif, f64::from(size), style)).color(&INK)
+}

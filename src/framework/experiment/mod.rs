@@ -1,0 +1,16 @@
+//! Experiments: many runs of many settings, their statistics, and the paper's tables among them.
+//!
+//! # Architecture Invariants
+//! - An experiment's state is its plan and the set of its finished runs, nothing else: whoever runs the pending ones, in
+//!   whatever order and on however many threads, gets the same table to the last digit.
+//! - Every cell runs the same seeds, so cells are compared pair by pair.
+
+pub mod figure;
+mod paired;
+mod patch;
+mod spec;
+mod summary;
+
+pub use paired::{PairedComparison, compare};
+pub use spec::{Cell, CellSpec, ExperimentError, ExperimentSpec, InvalidRule, MAX_RUNS, MatrixSpec, Plan, Variant};
+pub use summary::{Summary, mean, standard_deviation};
