@@ -1,7 +1,7 @@
 //! Figures 4, 6, 8, 9, 10: evaluations until each goal is done, mean over the runs with a band of one sd.
 
 use super::FigureError;
-use super::canvas::{Area, Axis, Drawn, Sample, legend, line, marker, page, panel, pixel};
+use super::canvas::{Area, Axis, Drawn, LEGEND, Sample, legend, line, marker, page, panel, pixel};
 use super::style::{HEIGHT, WIDTH, band_colour};
 use crate::framework::experiment::Summary;
 use plotters::element::Polygon;
@@ -67,8 +67,5 @@ fn draw<'b>(area: &Area<'b>, content: &AccumulationPanel) -> Drawn<'b> {
     if content.curves.iter().any(|curve| curve.published.is_some()) {
         entries.push((Sample::Hollow(6), "published mean (hollow)".to_owned()));
     }
-    legend(area, (LEGEND.0, LEGEND.1), &entries)
+    legend(area, LEGEND, &entries)
 }
-
-/// Upper left: the curves rise, so nothing is there.
-const LEGEND: (i32, i32) = (170, 100);

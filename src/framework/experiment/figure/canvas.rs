@@ -35,8 +35,9 @@ pub(super) fn page(
         let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
         let fill = |root: &Area<'_>| {
             root.fill(&WHITE)?;
-            let below = root.titled(title, heading(40))?;
-            draw(&below)?;
+            let style = heading(40).pos(Pos::new(HPos::Center, VPos::Top));
+            root.draw(&Text::new(title.to_owned(), (pixels(size.0) / 2, 24), style))?;
+            draw(&root.split_vertically(HEADER).1)?;
             root.present()
         };
         fill(&root).map_err(|source| source.to_string())
@@ -49,10 +50,17 @@ fn escape(title: &str) -> String {
     title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
+/// Height of the title, px.
+pub(super) const HEADER: u32 = 76;
+
 /// Room around a panel for its tick labels and axis names, px.
-pub(super) const LEFT: u32 = 140;
-pub(super) const BOTTOM: u32 = 96;
-pub(super) const TOP: u32 = 64;
+pub(super) const LEFT: u32 = 160;
+pub(super) const BOTTOM: u32 = 112;
+pub(super) const TOP: u32 = 60;
+/// Of `LEFT` and `BOTTOM`, what stays blank at the page's edge.
+const EDGE: u32 = 16;
+/// Where a legend at a panel's upper left begins, px.
+pub(super) const LEGEND: (i32, i32) = (192, 96);
 pub(super) const RIGHT: u32 = 30;
 
 /// Axes with a grid on `area`.
@@ -60,9 +68,10 @@ pub(super) fn panel<'a, 'b>(area: &'a Area<'b>, title: &str, x: &Axis, y: &Axis)
     let mut chart = ChartBuilder::on(area)
         .margin_top(TOP)
         .margin_right(RIGHT)
-        .set_left_and_bottom_label_area_size(0)
-        .x_label_area_size(BOTTOM)
-        .y_label_area_size(LEFT)
+        .margin_left(EDGE)
+        .margin_bottom(EDGE)
+        .x_label_area_size(BOTTOM - EDGE)
+        .y_label_area_size(LEFT - EDGE)
         .build_cartesian_2d(x.range[0]..x.range[1], y.range[0]..y.range[1])?;
     chart
         .configure_mesh()
@@ -184,6 +193,10 @@ pub(super) enum Sample {
 
 /// Entries one below the other, the first at `at` (px on `area`).
 pub(super) fn legend<'b>(area: &Area<'b>, at: (i32, i32), entries: &[(Sample, String)]) -> Drawn<'b> {
+    let longest = entries.iter().map(|(_, name)| name.chars().count()).max().unwrap_or(0);
+    let far = i32::try_from(78 + 18 * longest).unwrap_or(0);
+    let low = at.1 + 44 * i32::try_from(entries.len()).unwrap_or(0) - 20;
+    area.draw(&Rectangle::new([(at.0 - 14, at.1 - 24), (at.0 + far, low)], WHITE.mix(0.8).filled()))?;
     for (row, (sample, name)) in (0..).zip(entries) {
         let (x, y) = (at.0, at.1 + row * 44);
         let stroke = |ink: RGBColor| PathElement::new(vec![(x, y), (x + 60, y)], ink.stroke_width(5));

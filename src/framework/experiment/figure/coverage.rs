@@ -1,7 +1,9 @@
 //! Figure 7: the wall after each goal, cell by cell, and reference against achieved.
 
 use super::FigureError;
-use super::canvas::{Area, Axis, Drawn, Sample, legend, line, page, panel, pixel, pixels, plain_line, square};
+use super::canvas::{
+    Area, Axis, Drawn, HEADER, LEGEND, Sample, legend, line, page, panel, pixel, pixels, plain_line, square,
+};
 use super::style::{GREY, INK, WIDTH, colour, heading, text};
 use plotters::element::{Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -38,7 +40,7 @@ const EARLIER: RGBColor = RGBColor(150, 199, 226);
 pub fn coverage(title: &str, content: &Coverage) -> Result<String, FigureError> {
     // One slot more than goals: the legend.
     let rows = u32::try_from((content.done.len() + 1).div_ceil(PER_ROW)).unwrap_or(1);
-    page(title, (WIDTH, 60 + rows * WALL_PX + CURVE_PX), |area| {
+    page(title, (WIDTH, HEADER + rows * WALL_PX + CURVE_PX), |area| {
         let (walls, curve) = area.split_vertically(rows * WALL_PX);
         let slots = walls.split_evenly((rows as usize, PER_ROW));
         for (goal, slot) in slots.iter().enumerate().take(content.done.len()) {
@@ -97,5 +99,5 @@ fn against_reference<'b>(area: &Area<'b>, content: &Coverage) -> Drawn<'b> {
     reference.iter().try_for_each(|point| square(area, pixel(area, &chart, *point), 9, GREY))?;
     line(area, &chart, 0, &points(&content.achieved))?;
     let entries = [(Sample::Square(GREY), "reference".to_owned()), (Sample::Series(0), "achieved".to_owned())];
-    legend(area, (170, 100), &entries)
+    legend(area, LEGEND, &entries)
 }

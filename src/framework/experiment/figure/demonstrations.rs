@@ -1,7 +1,7 @@
 //! Figure 2: demonstrations in grey, the generalized curve through its goals.
 
 use super::FigureError;
-use super::canvas::{Axis, Sample, legend, marker, page, panel, pixel, plain_line, range_of};
+use super::canvas::{Axis, LEGEND, Sample, legend, marker, page, panel, pixel, plain_line, range_of};
 use super::style::{GREY, HEIGHT, WIDTH, colour};
 use crate::framework::Feature;
 
@@ -49,7 +49,7 @@ pub fn demonstrations(title: &str, features: &[Generalization]) -> Result<String
                 (Sample::Line(colour(0)), "generalized (radial basis functions)".to_owned()),
                 (Sample::Marker(1), format!("{} goals", content.goals.len())),
             ];
-            legend(area, (170, 100), &entries)?;
+            legend(area, LEGEND, &entries)?;
         }
         Ok(())
     })

@@ -2,7 +2,7 @@
 //! axes of a panel to one scale.
 
 use super::FigureError;
-use super::canvas::{Area, Axis, BOTTOM, Drawn, LEFT, RIGHT, Sample, TOP, legend, line, numbered, page, panel};
+use super::canvas::{Area, Axis, BOTTOM, Drawn, LEFT, LEGEND, RIGHT, Sample, TOP, legend, line, numbered, page, panel};
 use super::canvas::{pixel, plain_line, range_of};
 use super::style::{HEIGHT, INK, WIDTH};
 
@@ -26,7 +26,7 @@ pub fn trails(title: &str, goals_mm: &[[f64; 3]], trails: &[Trail]) -> Result<St
         view(&areas[1], "seen from the robot's right", [0, 2], goals_mm, trails)?;
         let mut entries = vec![(Sample::Numbered, "goals 1 to n".to_owned())];
         entries.extend(trails.iter().enumerate().map(|(index, trail)| (Sample::Series(index), trail.name.clone())));
-        legend(&areas[1], (170, 100), &entries)
+        legend(&areas[1], LEGEND, &entries)
     })
 }
 
