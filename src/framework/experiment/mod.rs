@@ -5,12 +5,20 @@
 //!   whatever order and on however many threads, gets the same table to the last digit.
 //! - Every cell runs the same seeds, so cells are compared pair by pair.
 
+pub mod export;
 pub mod figure;
 mod paired;
+pub mod paper;
 mod patch;
+mod result;
 mod spec;
+mod state;
 mod summary;
+#[cfg(test)]
+mod tests;
 
 pub use paired::{PairedComparison, compare};
+pub use result::{CellResult, Quantity};
 pub use spec::{Cell, CellSpec, ExperimentError, ExperimentSpec, InvalidRule, MAX_RUNS, MatrixSpec, Plan, Variant};
+pub use state::{Experiment, ProvenanceCounts, RecordError, RunId, RunRow};
 pub use summary::{Summary, mean, standard_deviation};
