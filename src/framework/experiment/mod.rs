@@ -9,8 +9,10 @@ pub mod export;
 pub mod figure;
 mod paired;
 pub mod paper;
+pub mod paper_figures;
 mod patch;
 mod result;
+mod run;
 mod spec;
 mod state;
 mod summary;
@@ -19,6 +21,7 @@ mod tests;
 
 pub use paired::{PairedComparison, compare};
 pub use result::{CellResult, Quantity};
+pub use run::{RunError, result, run};
 pub use spec::{Cell, CellSpec, ExperimentError, ExperimentSpec, InvalidRule, MAX_RUNS, MatrixSpec, Plan, Variant};
 pub use state::{Experiment, ProvenanceCounts, RecordError, RunId, RunRow};
 pub use summary::{Summary, mean, standard_deviation};

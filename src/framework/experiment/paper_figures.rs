@@ -1,0 +1,164 @@
+//! The paper's figures from the runs of its tables.
+//!
+//! Figures 5 and 7 show one run: of each cell the one whose discrepancy is the median, so that neither luck nor
+//! misfortune is drawn.
+
+use super::figure::{
+    Accumulation, AccumulationPanel, Coverage, FigureError, Generalization, Trail, accumulation, coverage,
+    demonstrations, trails,
+};
+use super::paper::PaperCell;
+use super::run::{RunError, result};
+use super::{Experiment, RunId};
+use crate::framework::demonstration::Demonstration;
+use crate::framework::execution::ProblemError;
+use crate::framework::generalization::{GeneralizeError, GeneralizeSpec, RbfError, RbfSpec, generalize, interpolate};
+use crate::framework::robot::{Chain, RobotModel};
+use crate::framework::world::{self, WorldSpec};
+
+/// Points of an interpolated curve.
+const CURVE_POINTS: usize = 400;
+
+/// Why there is no figure.
+#[derive(Debug, thiserror::Error)]
+pub enum PaperFigureError {
+    /// The demonstrations do not generalize.
+    #[error("figure 2: {0}")]
+    Generalize(#[from] GeneralizeError),
+    /// The goals have no curve.
+    #[error("figure 2: {0}")]
+    Curve(#[from] RbfError),
+    /// A run shown failed.
+    #[error("{0}")]
+    Run(#[from] RunError),
+    /// A run's world cannot be rebuilt.
+    #[error("{0}")]
+    Problem(#[from] ProblemError),
+    /// The drawing itself.
+    #[error("{0}")]
+    Figure(#[from] FigureError),
+    /// No finished run of a table the figure needs.
+    #[error("figure {figure} needs finished runs of table {table}: run the whole experiment")]
+    Missing {
+        /// The figure.
+        figure: u8,
+        /// The table.
+        table: u8,
+    },
+}
+
+/// Figure 2: `demonstrations` in grey and what they generalize to.
+///
+/// # Errors
+/// [`PaperFigureError`] if they do not generalize.
+pub fn figure_2(shown: &[Demonstration], spec: &GeneralizeSpec) -> Result<String, PaperFigureError> {
+    let generalized = generalize(shown, spec)?;
+    let curve = interpolate(&generalized.goals, CURVE_POINTS, &RbfSpec::default())?;
+    let (mean_s, n) = (generalized.mean_duration_s, generalized.goals.len());
+    // Goals stand for the middle of their bin; the curve runs from the first to the last.
+    let first_s = mean_s / (2 * n) as f64;
+    let spread = |count: usize, k: usize| {
+        let share = if count > 1 { k as f64 / (count - 1) as f64 } else { 0.5 };
+        first_s + share * (mean_s - 2.0 * first_s)
+    };
+    let features = generalized.goals.features().iter().enumerate().map(|(column, feature)| Generalization {
+        feature: feature.clone(),
+        demonstrations: shown.iter().map(|demonstration| scaled(demonstration, &feature.name, mean_s)).collect(),
+        curve: curve.rows().enumerate().map(|(k, row)| (spread(CURVE_POINTS, k), row[column])).collect(),
+        goals: generalized.goals.rows().enumerate().map(|(k, row)| (spread(n, k), row[column])).collect(),
+    });
+    let title = format!("Figure 2. {} demonstrations generalized to {n} goals", shown.len());
+    Ok(demonstrations(&title, &features.collect::<Vec<_>>())?)
+}
+
+/// The samples of one feature, time stretched to `mean_s`.
+fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64, f64)> {
+    let find = |stream: &&crate::framework::demonstration::Stream| stream.features().iter().any(|f| f.name == feature);
+    let Some(stream) = demonstration.streams.iter().find(find) else { return Vec::new() };
+    let column = stream.features().iter().position(|f| f.name == feature).unwrap_or(0);
+    let (start_s, stretch) = (stream.time_s()[0], mean_s / stream.duration_s());
+    let sample = |k: usize| ((stream.time_s()[k] - start_s) * stretch, stream.row(k)[column]);
+    (0..stream.len()).map(sample).collect()
+}
+
+/// Figures 4 to 10 (there is no 3) that the finished runs of the paper's tables allow, by number.
+///
+/// # Errors
+/// [`PaperFigureError`] if a run cannot be repeated or a figure not be drawn.
+pub fn figures(experiment: &Experiment, cells: &[PaperCell]) -> Result<Vec<(u8, String)>, PaperFigureError> {
+    let curves = |table: u8| panel(experiment, cells, table);
+    let published = "evaluations per goal, mean and standard deviation";
+    let mut drawn = Vec::new();
+    drawn.push((4, accumulation(&format!("Figure 4. Wax: {published}"), &[curves(1)])?));
+    drawn.push((5, trail_figure(experiment, cells)?));
+    drawn.push((6, accumulation(&format!("Figure 6. Paint: {published}"), &[curves(2)])?));
+    drawn.push((7, wall_figure(experiment, cells)?));
+    drawn.push((8, accumulation(&format!("Figure 8. Wax in a box: {published}"), &[curves(3)])?));
+    drawn.push((9, accumulation(&format!("Figure 9. Wax with limited velocity: {published}"), &[curves(4)])?));
+    let title = format!("Figure 10. Paint with constraints: {published}");
+    drawn.push((10, accumulation(&title, &[curves(5), curves(6)])?));
+    Ok(drawn)
+}
+
+fn of_table(cells: &[PaperCell], table: u8) -> impl Iterator<Item = (u32, &PaperCell)> {
+    (0u32..).zip(cells).filter(move |(_, cell)| cell.table == table)
+}
+
+fn panel(experiment: &Experiment, cells: &[PaperCell], table: u8) -> AccumulationPanel {
+    let results = experiment.table();
+    let curve = |(index, cell): (u32, &PaperCell)| Accumulation {
+        name: cell.setting.clone(),
+        cumulative: results[index as usize].cumulative.clone(),
+        published: Some(cell.published.evaluations),
+    };
+    AccumulationPanel { title: format!("Table {table}"), curves: of_table(cells, table).map(curve).collect() }
+}
+
+/// The finished run of a cell with the median discrepancy (the lower of two).
+fn median_run(experiment: &Experiment, cell: u32) -> Option<RunId> {
+    let mut rows: Vec<_> = experiment.rows_of(cell).filter(|row| !row.invalid).collect();
+    rows.sort_by(|a, b| a.discrepancy.total_cmp(&b.discrepancy).then(a.id.cmp(&b.id)));
+    rows.get(rows.len().saturating_sub(1) / 2).map(|row| row.id)
+}
+
+fn trail_figure(experiment: &Experiment, cells: &[PaperCell]) -> Result<String, PaperFigureError> {
+    let point = |row: &[f64]| [row[0], row[1], row[2]];
+    let (mut shown, mut goals) = (Vec::new(), Vec::new());
+    for (index, cell) in of_table(cells, 1) {
+        let Some(id) = median_run(experiment, index) else { continue };
+        let run = result(experiment.plan(), id)?;
+        let name = format!("{}: {:.0} mm", cell.setting, run.discrepancy);
+        shown.push(Trail { name, positions_mm: run.goals.iter().map(|goal| point(&goal.observation)).collect() });
+        goals = experiment.plan().cells[index as usize].problem.goals.rows().map(point).collect();
+    }
+    if shown.is_empty() {
+        return Err(PaperFigureError::Missing { figure: 5, table: 1 });
+    }
+    Ok(trails("Figure 5. Wax: where the tool went (runs of median discrepancy)", &goals, &shown)?)
+}
+
+fn wall_figure(experiment: &Experiment, cells: &[PaperCell]) -> Result<String, PaperFigureError> {
+    let missing = PaperFigureError::Missing { figure: 7, table: 2 };
+    let Some((index, cell)) = of_table(cells, 2).next() else { return Err(missing) };
+    let Some(id) = median_run(experiment, index) else { return Err(missing) };
+    let run = result(experiment.plan(), id)?;
+    let problem = &experiment.plan().cells[index as usize].problem;
+    let WorldSpec::Coverage(wall) = &problem.world else { return Err(missing) };
+    let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf).map_err(ProblemError::from)?, &problem.robot)
+        .map_err(ProblemError::from)?;
+    let mut world = world::build(&problem.world, &chain).map_err(ProblemError::from)?;
+    let (rows, columns) = (wall.rows as usize, wall.columns as usize);
+    let mut observation = [0.0];
+    let (mut done, mut achieved) = (Vec::new(), Vec::new());
+    for goal in &run.goals {
+        world.commit(&goal.joints, &mut observation);
+        achieved.push(observation[0]);
+        let bits = world.cells().unwrap_or(&[]);
+        done.push(
+            (0..rows * columns).map(|cell| bits.get(cell / 64).is_some_and(|w| w >> (cell % 64) & 1 == 1)).collect(),
+        );
+    }
+    let reference = problem.goals.rows().map(|row| row[0]).collect();
+    let title = format!("Figure 7. Paint, {}: the wall goal by goal (run of median discrepancy)", cell.setting);
+    Ok(coverage(&title, &Coverage { rows, columns, done, reference, achieved })?)
+}

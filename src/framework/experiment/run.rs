@@ -1,0 +1,69 @@
+//! One run of a plan, start to end: a pure function of plan and id.
+
+use super::{Plan, ProvenanceCounts, RunId, RunRow};
+use crate::framework::execution::{self, ProblemError, RunResult};
+use crate::framework::optimizer::Provenance;
+
+/// Why a run has no row.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The plan has no such run.
+    #[error("the plan has no repetition {} of cell {}", id.repetition, id.cell)]
+    Unplanned {
+        /// The run.
+        id: RunId,
+    },
+    /// The problem cannot be executed.
+    #[error("{action}, {setting} with seed {seed}")]
+    Problem {
+        /// The cell's action.
+        action: String,
+        /// The cell's setting.
+        setting: String,
+        /// The run's seed.
+        seed: u64,
+        /// What was wrong.
+        source: ProblemError,
+    },
+}
+
+/// Executes run `id` of `plan` in its simulated world.
+///
+/// # Errors
+/// [`RunError`] names the cell and seed.
+pub fn run(plan: &Plan, id: RunId) -> Result<RunRow, RunError> {
+    result(plan, id).map(|result| RunRow::of(id, &result))
+}
+
+/// As [`run`], with every goal's joints and observation.
+///
+/// # Errors
+/// As [`run`].
+pub fn result(plan: &Plan, id: RunId) -> Result<RunResult, RunError> {
+    let cell = plan.cell(id).ok_or(RunError::Unplanned { id })?;
+    let seed = plan.seed_of(id);
+    execution::run(&cell.problem, seed).map_err(|source| RunError::Problem {
+        action: cell.spec.action.clone(),
+        setting: cell.spec.setting.clone(),
+        seed,
+        source,
+    })
+}
+
+impl RunRow {
+    /// The row of a finished run.
+    #[must_use]
+    pub fn of(id: RunId, result: &RunResult) -> Self {
+        Self {
+            id,
+            seed: result.seed,
+            evaluations: result.evaluations,
+            discrepancy: result.discrepancy,
+            painted_percent: result.painted_percent,
+            invalid: result.goals.last().is_none_or(|goal| goal.provenance == Provenance::Penalised),
+            evaluations_per_goal: result.goals.iter().map(|goal| goal.evaluations).collect(),
+            provenance: ProvenanceCounts { simulated: result.evaluations, ..ProvenanceCounts::default() },
+            digest: result.digest.clone(),
+        }
+    }
+}
