@@ -10,6 +10,7 @@ mod openapi;
 mod recognize;
 mod run;
 mod serve;
+mod reproduce;
 
 use crate::lifecycle::{EXIT_GATE, GateClosed};
 use clap::{Parser, Subcommand};
@@ -30,6 +31,7 @@ enum Command {
     Run(Box<run::RunArguments>),
     Serve(Box<serve::ServeArguments>),
     Healthcheck(healthcheck::HealthcheckArguments),
+    Reproduce(reproduce::ReproduceArguments),
     /// Print the OpenAPI 3.1 document of the REST interface.
     Openapi,
 }
@@ -43,6 +45,7 @@ pub fn main(arguments: &Arguments) -> ExitCode {
         Command::Run(arguments) => run::run(arguments),
         Command::Serve(arguments) => serve::run(arguments),
         Command::Healthcheck(arguments) => healthcheck::run(arguments),
+        Command::Reproduce(arguments) => reproduce::run_command(arguments),
         Command::Openapi => openapi::run(),
     };
     match result {

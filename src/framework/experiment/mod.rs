@@ -23,5 +23,5 @@ pub use paired::{PairedComparison, compare};
 pub use result::{CellResult, Quantity};
 pub use run::{RunError, result, run};
 pub use spec::{Cell, CellSpec, ExperimentError, ExperimentSpec, InvalidRule, MAX_RUNS, MatrixSpec, Plan, Variant};
-pub use state::{Experiment, ProvenanceCounts, RecordError, RunId, RunRow};
+pub use state::{Experiment, RecordError, RunId, RunRow};
 pub use summary::{Summary, mean, standard_deviation};

@@ -4,9 +4,12 @@
 //! continuous goal-directed actions in smart city applications", 2018, doi:10.3390/s18113818; raw means and spreads
 //! from the authors' published logs.
 
+use super::patch::merge;
 use super::{CellResult, CellSpec, ExperimentSpec, InvalidRule};
+use crate::framework::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
 /// The shipped file.
@@ -26,6 +29,9 @@ pub struct PaperCell {
     pub settings_as_run: String,
     /// The problem it starts from.
     pub preset: String,
+    /// Names of the patches over it, in order.
+    #[serde(default)]
+    pub patches: Vec<String>,
     /// The tables' numbers.
     pub published: PaperNumbers,
     /// The numbers behind them.
@@ -93,38 +99,97 @@ impl Default for Tolerance {
     }
 }
 
-#[derive(Deserialize)]
+/// The paper's tables: cells and what they share.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Tables {
-    cells: Vec<PaperCell>,
+pub struct PaperTables {
+    /// What the boxes hold.
+    constrained_point: PointSpec,
+    /// Merge patches by name.
+    patches: BTreeMap<String, Value>,
+    /// All cells, table by table.
+    pub cells: Vec<PaperCell>,
 }
 
-/// All cells, table by table.
-///
-/// # Errors
-/// If the shipped file is broken, which a test rules out.
-pub fn cells() -> Result<Vec<PaperCell>, toml::de::Error> {
-    Ok(toml::from_str::<Tables>(TABLES)?.cells)
+/// Why the tables cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum PaperError {
+    /// The file is no such tables.
+    #[error("the paper's tables do not fit: {0}")]
+    Toml(#[from] toml::de::Error),
+    /// A constraint has no JSON.
+    #[error("the paper's tables, setting {setting:?}: {source}")]
+    Json {
+        /// The cell's setting.
+        setting: String,
+        /// What did not fit.
+        source: serde_json::Error,
+    },
+    /// A cell names a patch that is not there.
+    #[error("the paper's tables, setting {setting:?}: there is no patch {patch:?}")]
+    UnknownPatch {
+        /// The cell's setting.
+        setting: String,
+        /// The name.
+        patch: String,
+    },
+}
+
+impl PaperTables {
+    /// The shipped tables.
+    ///
+    /// # Errors
+    /// If the shipped file is broken, which a test rules out.
+    pub fn shipped() -> Result<Self, PaperError> {
+        Ok(toml::from_str(TABLES)?)
+    }
+
+    /// Only the cells of `table`; all where none is named.
+    #[must_use]
+    pub fn only(mut self, table: Option<u8>) -> Self {
+        self.cells.retain(|cell| table.is_none_or(|table| cell.table == table));
+        self
+    }
+
+    /// The cells as an experiment, in order.
+    ///
+    /// # Errors
+    /// [`PaperError`] names the cell.
+    pub fn experiment(&self, seed: u64, repetitions: u32) -> Result<ExperimentSpec, PaperError> {
+        let cells = self.cells.iter().map(|cell| self.spec(cell)).collect::<Result<Vec<_>, _>>()?;
+        Ok(ExperimentSpec { name: "paper tables".to_owned(), seed, repetitions, cells, matrix: None })
+    }
+
+    fn spec(&self, cell: &PaperCell) -> Result<CellSpec, PaperError> {
+        let mut overrides = json!({});
+        for name in &cell.patches {
+            let unknown = || PaperError::UnknownPatch { setting: cell.setting.clone(), patch: name.clone() };
+            merge(&mut overrides, self.patches.get(name).ok_or_else(unknown)?);
+        }
+        let geometry = cell.box_m.map(|corners| {
+            let geometry = GeometrySpec::Box { lower_m: corners.lower, upper_m: corners.upper, dilatation_m: 0.0 };
+            ConstraintSpec::Region(RegionSpec { geometry, point: self.constrained_point.clone() })
+        });
+        let limit = cell.velocity_deg.map(f64::to_radians);
+        let velocity = limit.map(|limit_rad| ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad }));
+        let constraints: Vec<ConstraintSpec> = geometry.into_iter().chain(velocity).collect();
+        if !constraints.is_empty() {
+            let value = serde_json::to_value(constraints)
+                .map_err(|source| PaperError::Json { setting: cell.setting.clone(), source })?;
+            merge(&mut overrides, &json!({"execution": {"constraints": value}}));
+        }
+        Ok(CellSpec {
+            table: cell.table.to_string(),
+            action: cell.action.clone(),
+            setting: cell.setting.clone(),
+            preset: cell.preset.clone(),
+            overrides,
+            invalid: cell.invalid,
+        })
+    }
 }
 
 impl PaperCell {
-    /// The cell as an experiment runs it.
-    #[must_use]
-    pub fn spec(&self) -> CellSpec {
-        CellSpec {
-            table: self.table.to_string(),
-            action: self.action.clone(),
-            setting: self.setting.clone(),
-            preset: self.preset.clone(),
-            overrides: self.overrides(),
-            invalid: self.invalid,
-        }
-    }
-
-    fn overrides(&self) -> Value {
-        Value::Null
-    }
-
     /// What keeps `result` from agreeing with the raw numbers; empty where it does.
     #[must_use]
     pub fn disagreements(&self, result: &CellResult) -> Vec<Disagreement> {
@@ -164,21 +229,13 @@ pub struct Disagreement {
     pub allowed: f64,
 }
 
-/// The tables as an experiment: all six, or one.
-#[must_use]
-pub fn experiment(cells: &[PaperCell], table: Option<u8>, seed: u64, repetitions: u32) -> ExperimentSpec {
-    let chosen = cells.iter().filter(|cell| table.is_none_or(|table| cell.table == table));
-    let name = table.map_or_else(|| "paper tables 1 to 6".to_owned(), |table| format!("paper table {table}"));
-    ExperimentSpec { name, seed, repetitions, cells: chosen.map(PaperCell::spec).collect(), matrix: None }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn all_28_cells_are_there_once() {
-        let cells = cells().unwrap();
+        let cells = PaperTables::shipped().unwrap().cells;
         assert_eq!(cells.len(), 28);
         let per_table: Vec<usize> = (1..=6).map(|t| cells.iter().filter(|c| c.table == t).count()).collect();
         assert_eq!(per_table, [4, 4, 5, 5, 5, 5]);
@@ -191,7 +248,7 @@ mod tests {
     /// The published means are the raw ones rounded, except for the cell that was copied from another.
     #[test]
     fn one_published_cell_is_a_copy() {
-        let cells = cells().unwrap();
+        let cells = PaperTables::shipped().unwrap().cells;
         let off = |cell: &&PaperCell| (cell.published.evaluations / cell.raw.evaluations - 1.0).abs() > 0.01;
         let copied: Vec<_> = cells.iter().filter(off).map(|cell| (cell.table, cell.setting.as_str())).collect();
         assert_eq!(copied, [(4, "v 20")]);

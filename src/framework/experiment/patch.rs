@@ -1,12 +1,12 @@
 //! Overrides: what a cell changes in its preset, as a JSON merge patch (RFC 7396) over the problem.
 //!
-//! One rule is added for choices that carry a `name` or `kind`: a patch that picks another one replaces the whole
+//! One rule is added for choices that carry a tag (`name`, `kind`, `strategy`, `shape`, `at`): a patch that picks another one replaces the whole
 //! choice, so the parameters of one method never leak into the next.
 
 use serde_json::{Map, Value};
 
 /// Keys that say which variant an object is.
-const TAGS: [&str; 2] = ["name", "kind"];
+const TAGS: [&str; 5] = ["name", "kind", "strategy", "shape", "at"];
 
 /// `target` after `patch`: objects merge key by key, null removes a key, anything else replaces.
 pub(super) fn merge(target: &mut Value, patch: &Value) {

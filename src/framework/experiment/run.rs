@@ -1,8 +1,7 @@
 //! One run of a plan, start to end: a pure function of plan and id.
 
-use super::{Plan, ProvenanceCounts, RunId, RunRow};
+use super::{Plan, RunId, RunRow};
 use crate::framework::execution::{self, ProblemError, RunResult};
-use crate::framework::optimizer::Provenance;
 
 /// Why a run has no row.
 #[derive(Debug, thiserror::Error)]
@@ -59,10 +58,11 @@ impl RunRow {
             seed: result.seed,
             evaluations: result.evaluations,
             discrepancy: result.discrepancy,
+            true_discrepancy: result.true_discrepancy,
             painted_percent: result.painted_percent,
-            invalid: result.goals.last().is_none_or(|goal| goal.provenance == Provenance::Penalised),
+            invalid: !result.valid,
             evaluations_per_goal: result.goals.iter().map(|goal| goal.evaluations).collect(),
-            provenance: ProvenanceCounts { simulated: result.evaluations, ..ProvenanceCounts::default() },
+            provenance: result.tally,
             digest: result.digest.clone(),
         }
     }

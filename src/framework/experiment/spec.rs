@@ -42,7 +42,7 @@ pub struct CellSpec {
     pub setting: String,
     /// The problem it starts from.
     pub preset: String,
-    /// JSON merge patch over the preset's problem; picking another `name` or `kind` replaces that whole choice.
+    /// JSON merge patch over the preset's problem; picking another `name`, `kind` or `strategy` replaces that whole choice.
     #[serde(default)]
     #[schema(value_type = Object)]
     pub overrides: Value,

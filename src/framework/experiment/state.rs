@@ -5,6 +5,7 @@
 //! - A run is recorded once; recording the same row again changes nothing, another row for the same run is refused.
 
 use super::{Cell, CellResult, Plan};
+use crate::framework::optimizer::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
@@ -16,22 +17,6 @@ pub struct RunId {
     pub cell: u32,
     /// Repetition from 0; the seed is the plan's seed plus this.
     pub repetition: u32,
-}
-
-/// How many fitness values of a run came from where; only simulated and real ones are evaluations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
-#[serde(default)]
-pub struct ProvenanceCounts {
-    /// Executed in a simulated world.
-    pub simulated: u64,
-    /// Executed on a robot.
-    pub real: u64,
-    /// Taken from relatives.
-    pub inherited: u64,
-    /// Taken from a granule.
-    pub granule: u64,
-    /// A penalty without execution.
-    pub penalised: u64,
 }
 
 /// One finished run in short.
@@ -46,6 +31,9 @@ pub struct RunRow {
     pub evaluations: u64,
     /// Discrepancy of the last goal's winner as the method believed it (features' unit).
     pub discrepancy: f64,
+    /// What that winner really does, where the method never executed it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub true_discrepancy: Option<f64>,
     /// Where the world has cells: over the last goal's executed candidates the percentage nearest 100.
     pub painted_percent: Option<f64>,
     /// The last goal had no feasible candidate.
@@ -53,7 +41,7 @@ pub struct RunRow {
     /// Evaluations of each goal, in order.
     pub evaluations_per_goal: Vec<u64>,
     /// Where the run's fitness values came from.
-    pub provenance: ProvenanceCounts,
+    pub provenance: Tally,
     /// SHA-256 of the run's joints, evaluations and discrepancy bits.
     pub digest: String,
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::framework::execution::{ExecutionSpec, Problem};
 use crate::framework::generalization::Goals;
-use crate::framework::optimizer::{MethodSpec, SstSpec};
+use crate::framework::optimizer::{MethodSpec, SstSpec, Tally};
 use crate::framework::world::{ToolPositionSpec, WorldSpec};
 use crate::framework::{Feature, recognition::Metric, robot::RobotSpec};
 use proptest::prelude::*;
@@ -38,10 +38,11 @@ fn row(id: RunId, seed: u64) -> RunRow {
         seed,
         evaluations,
         discrepancy: 10.0 / (1.0 + seed as f64) + f64::from(id.cell),
+        true_discrepancy: None,
         painted_percent: None,
         invalid: false,
         evaluations_per_goal: vec![evaluations / 3, evaluations - evaluations / 3],
-        provenance: ProvenanceCounts { simulated: evaluations, ..ProvenanceCounts::default() },
+        provenance: Tally { simulated: evaluations, ..Tally::default() },
         digest: format!("{}-{seed}", id.cell),
     }
 }
