@@ -76,3 +76,48 @@ fn write_figures(folder: &Path, experiment: &Experiment, cells: &[PaperCell]) ->
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::framework::experiment::CellResult;
+
+    fn experiment(table: Option<u8>, repetitions: u32, threads: u32) -> (PaperTables, Experiment) {
+        let tables = PaperTables::shipped().unwrap().only(table);
+        let spec = tables.experiment(1, repetitions).unwrap();
+        let plan = spec.plan(|name| Some(preset::shipped(name).ok()?.problem)).unwrap();
+        let mut experiment = Experiment::new(plan);
+        finish(&mut experiment, Some(threads)).unwrap();
+        (tables, experiment)
+    }
+
+    #[test]
+    fn many_threads_give_the_bits_of_one() {
+        let (one, many) = (experiment(Some(2), 6, 1).1, experiment(Some(2), 6, 3).1);
+        assert_eq!(one, many);
+        assert_eq!(export::paper_csv(&one.table()), export::paper_csv(&many.table()));
+    }
+
+    /// Means of 20 runs, so in bands of 40 %: a smoke test; 1000 runs stay within 8 and 13 %.
+    #[test]
+    fn every_cell_comes_near_the_paper_s_and_every_figure_is_drawn() {
+        let (tables, experiment) = experiment(None, 20, 2);
+        let near = |cell: &PaperCell, result: &CellResult| {
+            let ratio = |found: Option<f64>, raw: f64| found.map_or(0.0, |found| found / raw);
+            let evaluations = ratio(result.evaluations.map(|s| s.mean), cell.raw.evaluations);
+            let discrepancy = ratio(result.discrepancy.map(|s| s.mean), cell.raw.discrepancy);
+            let found = format!("table {}, {}: {evaluations:.2} {discrepancy:.2}", cell.table, cell.setting);
+            ((evaluations - 1.0).abs() > 0.4 || (discrepancy - 1.0).abs() > 0.75).then_some(found)
+        };
+        let table = experiment.table();
+        let far: Vec<_> = tables.cells.iter().zip(&table).filter_map(|(cell, result)| near(cell, result)).collect();
+        assert!(far.is_empty(), "{far:#?}");
+        let figures = paper_figures::figures(&experiment, &tables.cells).unwrap();
+        assert_eq!(figures.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [2, 4, 5, 6, 7, 8, 9, 10]);
+        for (number, svg) in figures {
+            let document = roxmltree::Document::parse(&svg).unwrap();
+            let title = document.root_element().first_element_child().unwrap().text().unwrap();
+            assert!(title.starts_with(&format!("Figure {number}. ")), "{title}");
+        }
+    }
+}

@@ -10,11 +10,22 @@ use super::figure::{
 use super::paper::PaperCell;
 use super::run::{RunError, result};
 use super::{Experiment, RunId};
-use crate::framework::demonstration::Demonstration;
+use crate::framework::demonstration::{Demonstration, Finding, ReadOptions, Stream, read};
 use crate::framework::execution::ProblemError;
 use crate::framework::generalization::{GeneralizeError, GeneralizeSpec, RbfError, RbfSpec, generalize, interpolate};
 use crate::framework::robot::{Chain, RobotModel};
 use crate::framework::world::{self, WorldSpec};
+
+/// The wax demonstrations of the examples, synthetic: the paper's own were not published.
+const WAX: [(&str, &str); 4] = [
+    ("demo-1", include_str!("../../../examples/demonstrations/wax/demo-1.csv")),
+    ("demo-2", include_str!("../../../examples/demonstrations/wax/demo-2.csv")),
+    ("demo-3", include_str!("../../../examples/demonstrations/wax/demo-3.csv")),
+    ("demo-4", include_str!("../../../examples/demonstrations/wax/demo-4.csv")),
+];
+
+/// T_min that gives the nine goals of the paper's wax, s.
+const WAX_T_MIN_S: f64 = 1.0;
 
 /// Points of an interpolated curve.
 const CURVE_POINTS: usize = 400;
@@ -22,6 +33,14 @@ const CURVE_POINTS: usize = 400;
 /// Why there is no figure.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperFigureError {
+    /// A shipped demonstration is refused.
+    #[error("figure 2: demonstration {name} is refused: {findings:?}")]
+    Demonstration {
+        /// Its name.
+        name: &'static str,
+        /// Why.
+        findings: Vec<Finding>,
+    },
     /// The demonstrations do not generalize.
     #[error("figure 2: {0}")]
     Generalize(#[from] GeneralizeError),
@@ -47,6 +66,16 @@ pub enum PaperFigureError {
     },
 }
 
+/// The demonstrations figure 2 shows.
+fn wax_demonstrations() -> Result<Vec<Demonstration>, PaperFigureError> {
+    let read_one = |(name, text): &(&'static str, &str)| {
+        let options = ReadOptions { name: Some((*name).to_owned()), ..ReadOptions::default() };
+        let refused = |findings| PaperFigureError::Demonstration { name, findings };
+        read(text.as_bytes(), &options).map(|(demonstration, _)| demonstration).map_err(refused)
+    };
+    WAX.iter().map(read_one).collect()
+}
+
 /// Figure 2: `demonstrations` in grey and what they generalize to.
 ///
 /// # Errors
@@ -67,13 +96,13 @@ pub fn figure_2(shown: &[Demonstration], spec: &GeneralizeSpec) -> Result<String
         curve: curve.rows().enumerate().map(|(k, row)| (spread(CURVE_POINTS, k), row[column])).collect(),
         goals: generalized.goals.rows().enumerate().map(|(k, row)| (spread(n, k), row[column])).collect(),
     });
-    let title = format!("Figure 2. {} demonstrations generalized to {n} goals", shown.len());
+    let title = format!("Figure 2. Wax: {} demonstrations generalized to {n} goals", shown.len());
     Ok(demonstrations(&title, &features.collect::<Vec<_>>())?)
 }
 
 /// The samples of one feature, time stretched to `mean_s`.
 fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64, f64)> {
-    let find = |stream: &&crate::framework::demonstration::Stream| stream.features().iter().any(|f| f.name == feature);
+    let find = |stream: &&Stream| stream.features().iter().any(|f| f.name == feature);
     let Some(stream) = demonstration.streams.iter().find(find) else { return Vec::new() };
     let column = stream.features().iter().position(|f| f.name == feature).unwrap_or(0);
     let (start_s, stretch) = (stream.time_s()[0], mean_s / stream.duration_s());
@@ -81,14 +110,15 @@ fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64
     (0..stream.len()).map(sample).collect()
 }
 
-/// Figures 4 to 10 (there is no 3) that the finished runs of the paper's tables allow, by number.
+/// Figures 2 and 4 to 10 (3 is a photograph of the robot) by number; `experiment` ran all six tables.
 ///
 /// # Errors
 /// [`PaperFigureError`] if a run cannot be repeated or a figure not be drawn.
 pub fn figures(experiment: &Experiment, cells: &[PaperCell]) -> Result<Vec<(u8, String)>, PaperFigureError> {
     let curves = |table: u8| panel(experiment, cells, table);
     let published = "evaluations per goal, mean and standard deviation";
-    let mut drawn = Vec::new();
+    let wax = wax_demonstrations()?;
+    let mut drawn = vec![(2, figure_2(&wax, &GeneralizeSpec::new(WAX_T_MIN_S))?)];
     drawn.push((4, accumulation(&format!("Figure 4. Wax: {published}"), &[curves(1)])?));
     drawn.push((5, trail_figure(experiment, cells)?));
     drawn.push((6, accumulation(&format!("Figure 6. Paint: {published}"), &[curves(2)])?));

@@ -193,31 +193,51 @@ pub(super) enum Sample {
 
 /// Entries one below the other, the first at `at` (px on `area`).
 pub(super) fn legend<'b>(area: &Area<'b>, at: (i32, i32), entries: &[(Sample, String)]) -> Drawn<'b> {
-    let longest = entries.iter().map(|(_, name)| name.chars().count()).max().unwrap_or(0);
-    let far = i32::try_from(78 + 18 * longest).unwrap_or(0);
+    let far = entries.iter().map(|(_, name)| entry_width(name)).max().unwrap_or(0);
     let low = at.1 + 44 * i32::try_from(entries.len()).unwrap_or(0) - 20;
     area.draw(&Rectangle::new([(at.0 - 14, at.1 - 24), (at.0 + far, low)], WHITE.mix(0.8).filled()))?;
     for (row, (sample, name)) in (0..).zip(entries) {
-        let (x, y) = (at.0, at.1 + row * 44);
-        let stroke = |ink: RGBColor| PathElement::new(vec![(x, y), (x + 60, y)], ink.stroke_width(5));
-        match *sample {
-            Sample::Series(index) => {
-                area.draw(&stroke(colour(index)))?;
-                marker(area, index, (x + 30, y), 10, false)?;
-            }
-            Sample::Hollow(index) => marker(area, index, (x + 30, y), 13, true)?,
-            Sample::Line(ink) => area.draw(&stroke(ink))?,
-            Sample::Marker(index) => marker(area, index, (x + 30, y), 11, false)?,
-            Sample::Square(ink) => {
-                area.draw(&stroke(ink))?;
-                square(area, (x + 30, y), 9, ink)?;
-            }
-            Sample::Numbered => numbered(area, (x + 30, y), 1)?,
-        }
-        let style = text(32).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new(name.clone(), (x + 78, y), style))?;
+        entry(area, (at.0, at.1 + row * 44), *sample, name)?;
     }
     Ok(())
+}
+
+/// Height of a [`legend_row`], px.
+pub(super) const STRIP: u32 = 56;
+
+/// Entries side by side on a strip of their own.
+pub(super) fn legend_row<'b>(area: &Area<'b>, entries: &[(Sample, String)]) -> Drawn<'b> {
+    let mut x = pixels(LEFT);
+    for (sample, name) in entries {
+        entry(area, (x, pixels(STRIP) / 2), *sample, name)?;
+        x += entry_width(name) + 40;
+    }
+    Ok(())
+}
+
+/// About how wide an entry is, px: the library cannot measure text.
+fn entry_width(name: &str) -> i32 {
+    i32::try_from(78 + 17 * name.chars().count()).unwrap_or(0)
+}
+
+fn entry<'b>(area: &Area<'b>, (x, y): (i32, i32), sample: Sample, name: &str) -> Drawn<'b> {
+    let stroke = |ink: RGBColor| PathElement::new(vec![(x, y), (x + 60, y)], ink.stroke_width(5));
+    match sample {
+        Sample::Series(index) => {
+            area.draw(&stroke(colour(index)))?;
+            marker(area, index, (x + 30, y), 10, false)?;
+        }
+        Sample::Hollow(index) => marker(area, index, (x + 30, y), 13, true)?,
+        Sample::Line(ink) => area.draw(&stroke(ink))?,
+        Sample::Marker(index) => marker(area, index, (x + 30, y), 11, false)?,
+        Sample::Square(ink) => {
+            area.draw(&stroke(ink))?;
+            square(area, (x + 30, y), 9, ink)?;
+        }
+        Sample::Numbered => numbered(area, (x + 30, y), 1)?,
+    }
+    let style = text(32).pos(Pos::new(HPos::Left, VPos::Center));
+    area.draw(&Text::new(name.to_owned(), (x + 78, y), style))
 }
 
 /// A range a little wider than `values`; [0, 1] where there is none.

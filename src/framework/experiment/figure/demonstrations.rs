@@ -1,8 +1,9 @@
 //! Figure 2: demonstrations in grey, the generalized curve through its goals.
 
 use super::FigureError;
-use super::canvas::{Axis, LEGEND, Sample, legend, marker, page, panel, pixel, plain_line, range_of};
-use super::style::{GREY, HEIGHT, WIDTH, colour};
+use super::canvas::range_of;
+use super::canvas::{Area, Axis, Drawn, HEADER, STRIP, Sample, legend_row, marker, page, panel, pixel, plain_line};
+use super::style::{GREY, WIDTH, colour};
 use crate::framework::Feature;
 
 /// One feature over time; all times in s on the mean demonstration's scale.
@@ -18,39 +19,45 @@ pub struct Generalization {
     pub goals: Vec<(f64, f64)>,
 }
 
-/// The figure as SVG, features side by side.
+/// Height of one feature's panel, px.
+const PANEL_PX: u32 = 520;
+
+/// The figure as SVG, features one below the other.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.
 pub fn demonstrations(title: &str, features: &[Generalization]) -> Result<String, FigureError> {
-    page(title, (WIDTH, HEIGHT), |area| {
-        let areas = area.split_evenly((1, features.len().max(1)));
-        for (content, area) in features.iter().zip(&areas) {
-            let all = || content.demonstrations.iter().flatten().chain(&content.curve).chain(&content.goals);
-            let unit = if content.feature.unit.is_empty() { "1" } else { &content.feature.unit };
-            let x = Axis {
-                label: "time, scaled to the mean demonstration (s)".to_owned(),
-                range: range_of(all().map(|point| point.0)),
-                ticks: 8,
-                decimals: 0,
-            };
-            let label = format!("{} ({unit})", content.feature.name);
-            let y = Axis { label, range: range_of(all().map(|point| point.1)), ticks: 8, decimals: 0 };
-            let chart = panel(area, "", &x, &y)?;
-            for demonstration in &content.demonstrations {
-                plain_line(&chart, demonstration, GREY, 3)?;
-            }
-            plain_line(&chart, &content.curve, colour(0), 6)?;
-            for goal in &content.goals {
-                marker(area, 1, pixel(area, &chart, *goal), 11, false)?;
-            }
+    let count = u32::try_from(features.len().max(1)).unwrap_or(1);
+    page(title, (WIDTH, HEADER + STRIP + count * PANEL_PX), |area| {
+        let (strip, panels) = area.split_vertically(STRIP);
+        if let Some(first) = features.first() {
             let entries = [
-                (Sample::Line(GREY), format!("{} demonstrations", content.demonstrations.len())),
+                (Sample::Line(GREY), format!("{} demonstrations", first.demonstrations.len())),
                 (Sample::Line(colour(0)), "generalized (radial basis functions)".to_owned()),
-                (Sample::Marker(1), format!("{} goals", content.goals.len())),
+                (Sample::Marker(1), format!("{} goals", first.goals.len())),
             ];
-            legend(area, LEGEND, &entries)?;
+            legend_row(&strip, &entries)?;
         }
-        Ok(())
+        let areas = panels.split_evenly((features.len().max(1), 1));
+        features.iter().zip(&areas).try_for_each(|(content, area)| draw(area, content))
     })
+}
+
+fn draw<'b>(area: &Area<'b>, content: &Generalization) -> Drawn<'b> {
+    let all = || content.demonstrations.iter().flatten().chain(&content.curve).chain(&content.goals);
+    let unit = if content.feature.unit.is_empty() { "1" } else { &content.feature.unit };
+    let x = Axis {
+        label: "time, scaled to the mean demonstration (s)".to_owned(),
+        range: range_of(all().map(|point| point.0)),
+        ticks: 10,
+        decimals: 0,
+    };
+    let label = format!("{} ({unit})", content.feature.name);
+    let y = Axis { label, range: range_of(all().map(|point| point.1)), ticks: 5, decimals: 0 };
+    let chart = panel(area, "", &x, &y)?;
+    for demonstration in &content.demonstrations {
+        plain_line(&chart, demonstration, GREY, 3)?;
+    }
+    plain_line(&chart, &content.curve, colour(0), 5)?;
+    content.goals.iter().try_for_each(|goal| marker(area, 1, pixel(area, &chart, *goal), 10, false))
 }
