@@ -96,7 +96,7 @@ pub fn figure_2(shown: &[Demonstration], spec: &GeneralizeSpec) -> Result<String
         curve: curve.rows().enumerate().map(|(k, row)| (spread(CURVE_POINTS, k), row[column])).collect(),
         goals: generalized.goals.rows().enumerate().map(|(k, row)| (spread(n, k), row[column])).collect(),
     });
-    let title = format!("Figure 2. Wax: {} demonstrations generalized to {n} goals", shown.len());
+    let title = format!("Figure 2. Wax: {} synthetic demonstrations generalized to {n} goals", shown.len());
     Ok(demonstrations(&title, &features.collect::<Vec<_>>())?)
 }
 
@@ -116,16 +116,16 @@ fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64
 /// [`PaperFigureError`] if a run cannot be repeated or a figure not be drawn.
 pub fn figures(experiment: &Experiment, cells: &[PaperCell]) -> Result<Vec<(u8, String)>, PaperFigureError> {
     let curves = |table: u8| panel(experiment, cells, table);
-    let published = "evaluations per goal, mean and standard deviation";
+    let what = "evaluations per goal, mean \u{b1} sd";
     let wax = wax_demonstrations()?;
     let mut drawn = vec![(2, figure_2(&wax, &GeneralizeSpec::new(WAX_T_MIN_S))?)];
-    drawn.push((4, accumulation(&format!("Figure 4. Wax: {published}"), &[curves(1)])?));
+    drawn.push((4, accumulation(&format!("Figure 4. Wax: {what}"), &[curves(1)])?));
     drawn.push((5, trail_figure(experiment, cells)?));
-    drawn.push((6, accumulation(&format!("Figure 6. Paint: {published}"), &[curves(2)])?));
+    drawn.push((6, accumulation(&format!("Figure 6. Paint: {what}"), &[curves(2)])?));
     drawn.push((7, wall_figure(experiment, cells)?));
-    drawn.push((8, accumulation(&format!("Figure 8. Wax in a box: {published}"), &[curves(3)])?));
-    drawn.push((9, accumulation(&format!("Figure 9. Wax with limited velocity: {published}"), &[curves(4)])?));
-    let title = format!("Figure 10. Paint with constraints: {published}");
+    drawn.push((8, accumulation(&format!("Figure 8. Wax in a box: {what}"), &[curves(3)])?));
+    drawn.push((9, accumulation(&format!("Figure 9. Wax with limited velocity: {what}"), &[curves(4)])?));
+    let title = format!("Figure 10. Paint with constraints: {what}");
     drawn.push((10, accumulation(&title, &[curves(5), curves(6)])?));
     Ok(drawn)
 }
@@ -136,12 +136,17 @@ fn of_table(cells: &[PaperCell], table: u8) -> impl Iterator<Item = (u32, &Paper
 
 fn panel(experiment: &Experiment, cells: &[PaperCell], table: u8) -> AccumulationPanel {
     let results = experiment.table();
+    let title = match table {
+        1 | 2 => "methods",
+        3 | 5 => "box, by dilatation",
+        _ => "velocity limit in the population (deg)",
+    };
     let curve = |(index, cell): (u32, &PaperCell)| Accumulation {
         name: cell.setting.clone(),
         cumulative: results[index as usize].cumulative.clone(),
         published: Some(cell.published.evaluations),
     };
-    AccumulationPanel { title: format!("Table {table}"), curves: of_table(cells, table).map(curve).collect() }
+    AccumulationPanel { title: title.to_owned(), curves: of_table(cells, table).map(curve).collect() }
 }
 
 /// The finished run of a cell with the median discrepancy (the lower of two).

@@ -65,7 +65,7 @@ fn draw<'b>(area: &Area<'b>, content: &AccumulationPanel) -> Drawn<'b> {
         entries.push((Sample::Series(index), curve.name.clone()));
     }
     if content.curves.iter().any(|curve| curve.published.is_some()) {
-        entries.push((Sample::Hollow(6), "published mean (hollow)".to_owned()));
+        entries.push((Sample::Hollow(6), "published (hollow)".to_owned()));
     }
     legend(area, LEGEND, &entries)
 }

@@ -217,7 +217,7 @@ pub(super) fn legend_row<'b>(area: &Area<'b>, entries: &[(Sample, String)]) -> D
 
 /// About how wide an entry is, px: the library cannot measure text.
 fn entry_width(name: &str) -> i32 {
-    i32::try_from(78 + 17 * name.chars().count()).unwrap_or(0)
+    i32::try_from(78 + 16 * name.chars().count()).unwrap_or(0)
 }
 
 fn entry<'b>(area: &Area<'b>, (x, y): (i32, i32), sample: Sample, name: &str) -> Drawn<'b> {
