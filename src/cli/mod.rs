@@ -8,9 +8,9 @@ mod generalize;
 mod healthcheck;
 mod openapi;
 mod recognize;
+mod reproduce;
 mod run;
 mod serve;
-mod reproduce;
 
 use crate::lifecycle::{EXIT_GATE, GateClosed};
 use clap::{Parser, Subcommand};
