@@ -88,7 +88,7 @@ fn markdown_table(header: &[&str], rows: &[Vec<String>], names: usize) -> String
     let widths: Vec<usize> = (0..header.len()).map(width).collect();
     let mut text = String::new();
     let mut push = |cells: Vec<String>| {
-        text += &format!("| {} |\n", cells.join(" | "));
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
     };
     let pad = |k: usize, cell: &str| {
         let blank = " ".repeat(widths[k].saturating_sub(cell.chars().count()));

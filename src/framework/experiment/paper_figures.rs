@@ -52,7 +52,7 @@ pub enum PaperFigureError {
     Run(#[from] RunError),
     /// A run's world cannot be rebuilt.
     #[error("{0}")]
-    Problem(#[from] ProblemError),
+    Problem(#[from] Box<ProblemError>),
     /// The drawing itself.
     #[error("{0}")]
     Figure(#[from] FigureError),
@@ -172,6 +172,10 @@ fn trail_figure(experiment: &Experiment, cells: &[PaperCell]) -> Result<String, 
     Ok(trails("Figure 5. Wax: where the tool went (runs of median discrepancy)", &goals, &shown)?)
 }
 
+fn rebuild(error: impl Into<ProblemError>) -> PaperFigureError {
+    PaperFigureError::Problem(Box::new(error.into()))
+}
+
 fn wall_figure(experiment: &Experiment, cells: &[PaperCell]) -> Result<String, PaperFigureError> {
     let missing = PaperFigureError::Missing { figure: 7, table: 2 };
     let Some((index, cell)) = of_table(cells, 2).next() else { return Err(missing) };
@@ -179,9 +183,8 @@ fn wall_figure(experiment: &Experiment, cells: &[PaperCell]) -> Result<String, P
     let run = result(experiment.plan(), id)?;
     let problem = &experiment.plan().cells[index as usize].problem;
     let WorldSpec::Coverage(wall) = &problem.world else { return Err(missing) };
-    let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf).map_err(ProblemError::from)?, &problem.robot)
-        .map_err(ProblemError::from)?;
-    let mut world = world::build(&problem.world, &chain).map_err(ProblemError::from)?;
+    let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf).map_err(rebuild)?, &problem.robot).map_err(rebuild)?;
+    let mut world = world::build(&problem.world, &chain).map_err(rebuild)?;
     let (rows, columns) = (wall.rows as usize, wall.columns as usize);
     let mut observation = [0.0];
     let (mut done, mut achieved) = (Vec::new(), Vec::new());

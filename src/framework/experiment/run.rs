@@ -22,7 +22,7 @@ pub enum RunError {
         /// The run's seed.
         seed: u64,
         /// What was wrong.
-        source: ProblemError,
+        source: Box<ProblemError>,
     },
 }
 
@@ -45,7 +45,7 @@ pub fn result(plan: &Plan, id: RunId) -> Result<RunResult, RunError> {
         action: cell.spec.action.clone(),
         setting: cell.spec.setting.clone(),
         seed,
-        source,
+        source: Box::new(source),
     })
 }
 
