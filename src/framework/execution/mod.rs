@@ -17,6 +17,6 @@ pub use error::ProblemError;
 pub use iet::Iet;
 pub use observations::Observations;
 pub use result::{GoalResult, Progress, RunResult, TracePoint};
-pub use simulate::{run, simulate};
+pub use simulate::{run, run_while, simulate};
 pub use spec::{ExecutionSpec, Problem};
 pub use state::IetState;

@@ -41,6 +41,24 @@ pub fn simulate(iet: &mut Iet, world: &mut dyn World, budget: u64) -> Result<Pro
     Ok(iet.progress())
 }
 
+/// Evaluations between two questions whether to go on.
+const SLICE: u64 = 1024;
+
+/// As [`run`]; none if `go_on` answers no before the end.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_while(problem: &Problem, seed: u64, go_on: impl Fn() -> bool) -> Result<Option<RunResult>, ProblemError> {
+    let mut iet = Iet::new(problem, seed)?;
+    let mut world = world::build(&problem.world, iet.chain())?;
+    while go_on() {
+        if simulate(&mut iet, world.as_mut(), SLICE)?.finished {
+            return iet.finish().map(Some);
+        }
+    }
+    Ok(None)
+}
+
 /// One whole run of `problem` in its world.
 ///
 /// # Errors

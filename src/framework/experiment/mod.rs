@@ -21,7 +21,7 @@ mod tests;
 
 pub use paired::{PairedComparison, compare};
 pub use result::{CellResult, Quantity};
-pub use run::{RunError, result, run};
+pub use run::{RunError, result, run, run_while};
 pub use spec::{Cell, CellSpec, ExperimentError, ExperimentSpec, InvalidRule, MAX_RUNS, MatrixSpec, Plan, Variant};
 pub use state::{Experiment, RecordError, RunId, RunRow};
 pub use summary::{Summary, mean, standard_deviation};

@@ -1,7 +1,7 @@
 //! One run of a plan, start to end: a pure function of plan and id.
 
 use super::{Plan, RunId, RunRow};
-use crate::framework::execution::{self, ProblemError, RunResult};
+use crate::framework::execution::{self, Problem, ProblemError, RunResult};
 
 /// Why a run has no row.
 #[derive(Debug, thiserror::Error)]
@@ -34,14 +34,31 @@ pub fn run(plan: &Plan, id: RunId) -> Result<RunRow, RunError> {
     result(plan, id).map(|result| RunRow::of(id, &result))
 }
 
+/// As [`run`]; none if `go_on` answers no before the end. Being asked changes no bit of the row.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_while(plan: &Plan, id: RunId, go_on: impl Fn() -> bool) -> Result<Option<RunRow>, RunError> {
+    let found = execute(plan, id, |problem, seed| execution::run_while(problem, seed, go_on))?;
+    Ok(found.map(|result| RunRow::of(id, &result)))
+}
+
 /// As [`run`], with every goal's joints and observation.
 ///
 /// # Errors
 /// As [`run`].
 pub fn result(plan: &Plan, id: RunId) -> Result<RunResult, RunError> {
+    execute(plan, id, execution::run)
+}
+
+fn execute<T>(
+    plan: &Plan,
+    id: RunId,
+    work: impl FnOnce(&Problem, u64) -> Result<T, ProblemError>,
+) -> Result<T, RunError> {
     let cell = plan.cell(id).ok_or(RunError::Unplanned { id })?;
     let seed = plan.seed_of(id);
-    execution::run(&cell.problem, seed).map_err(|source| RunError::Problem {
+    work(&cell.problem, seed).map_err(|source| RunError::Problem {
         action: cell.spec.action.clone(),
         setting: cell.spec.setting.clone(),
         seed,

@@ -12,6 +12,7 @@ use utoipa::ToSchema;
 
 /// Which run of an experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ToSchema)]
+#[schema(as = ExperimentRun)]
 pub struct RunId {
     /// Cell index from 0.
     pub cell: u32,
