@@ -96,6 +96,8 @@ ids! {
     JobId = "job", "a job";
     /// Names a run: one repetition of an execution job.
     RunId = "run", "a run";
+    /// Names an experiment.
+    ExperimentId = "exp", "an experiment";
     /// Names a trajectory.
     TrajectoryId = "trj", "a trajectory";
 }

@@ -10,6 +10,7 @@ mod access;
 pub mod actions;
 pub mod demonstrations;
 mod error;
+pub mod experiments;
 pub mod id;
 pub mod jobs;
 mod page;

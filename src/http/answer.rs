@@ -34,7 +34,7 @@ impl From<PageParameters> for PageQuery {
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct ExportParameters {
-    /// `csv` or `json`; trajectories also `ros2`.
+    /// `csv` or `json`; trajectories also `ros2`; experiments `csv`, `full_csv` or `markdown`.
     pub format: String,
 }
 

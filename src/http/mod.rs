@@ -15,6 +15,7 @@ mod demonstrations;
 mod envelope;
 pub mod error;
 mod events;
+mod experiments;
 mod extract;
 mod health;
 mod jobs;
@@ -119,6 +120,12 @@ fn resources() -> OpenApiRouter<Api> {
         .at(routes!(jobs::cancel))
         .at(routes!(jobs::acknowledge))
         .at(routes!(jobs::clone))
+        .at(routes!(experiments::list, experiments::create))
+        .at(routes!(experiments::get))
+        .at(routes!(experiments::table))
+        .at(routes!(experiments::rows))
+        .at(routes!(experiments::compare))
+        .at(routes!(experiments::export))
         .at(routes!(runs::list))
         .at(routes!(runs::get))
         .at(routes!(runs::goals))

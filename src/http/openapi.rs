@@ -28,6 +28,7 @@ pub const RENEW: &str = "cargo run --quiet -- openapi > web/openapi.json";
         (name = "robots", description = "A URDF and the part of it that moves; versions are immutable."),
         (name = "worlds", description = "Where effects happen."),
         (name = "jobs", description = "Durable work with live progress."),
+        (name = "experiments", description = "Many runs of many settings, compared."),
         (name = "runs", description = "Finished repetitions of execution jobs."),
         (name = "trajectories", description = "Checked joint trajectories."),
         (name = "service", description = "The service itself.")

@@ -11,6 +11,7 @@
 
 mod checkpoint;
 mod execution;
+mod experiment;
 mod generalization;
 mod held;
 mod outcome;

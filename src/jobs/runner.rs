@@ -1,7 +1,7 @@
 //! Workers, and the task that takes back what a lost worker held.
 
 use super::held::{Gone, Held};
-use super::{execution, generalization};
+use super::{execution, experiment, generalization};
 use crate::app::Ports;
 use crate::app::jobs::Work;
 use crate::app::ports::{Claimed, StoreError, Wake};
@@ -99,6 +99,7 @@ async fn hold(ports: &Ports, settings: &Settings, claimed: Claimed, stop: &Cance
         match work {
             Work::Generalization(request) => generalization::run(&held, &job, request).await,
             Work::Execution(work) => execution::run(&held, &job, *work, checkpoint).await,
+            Work::Experiment { experiment } => experiment::run(&held, &job, experiment).await,
         }
     });
     match attempt.await {

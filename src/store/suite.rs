@@ -1,19 +1,22 @@
 //! What every engine behind the Store port must do; each function is one promise, run on a fresh store.
 
 use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
-use crate::app::id::{ActionId, DemonstrationId, JobId, RobotId, RunId, WorldId};
+use crate::app::experiments::{ExperimentView, RowFilter};
+use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, WorldId};
 use crate::app::jobs::{
     CreateJob, EventData, GeneralizationRequest, JobFilter, JobKind, JobProgress, JobResult, JobView, Work,
 };
 use crate::app::ports::{
-    Advance, Claimed, IdempotencyKey, NewDemonstration, NewJob, NewRobot, NewRun, Store, StoreError, Submitted,
-    Transition, Usage,
+    Advance, Claimed, IdempotencyKey, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Store, StoreError,
+    Submitted, Transition, Usage,
 };
 use crate::app::robots::RobotView;
 use crate::app::runs::{RunFilter, RunGoals, RunView};
 use crate::app::{Keyset, PageQuery, Timestamp};
+use crate::framework::experiment::{Plan, RunId as Which, RunRow};
 use crate::framework::generalization::Weighting;
 use crate::framework::job::{Event, State};
+use crate::framework::optimizer::Tally;
 use crate::framework::recognition::Metric;
 use crate::framework::robot::{ChainSummary, RobotSpec, RobotSummary};
 use std::time::Duration;
@@ -113,7 +116,7 @@ fn job(number: u128) -> NewJob {
         started_at: None,
         finished_at: None,
     };
-    NewJob { view, work: Work::Generalization(request), uses: Usage::default() }
+    NewJob { view, work: Work::Generalization(request), uses: Usage::default(), experiment: None }
 }
 
 fn run(number: u128, job: &JobId, repetition: u32) -> NewRun {
@@ -402,4 +405,82 @@ pub(crate) async fn steers_jobs_as_the_machine_allows(store: &dyn Store) {
     let missing = JobId::from_uuid(uuid(77));
     let asked = store.ask(&missing, Transition::plain(Event::Cancel), AT).await;
     assert!(matches!(asked, Err(StoreError::NotFound { .. })));
+}
+
+fn experiment(number: u128) -> NewJob {
+    let mut new = job(number);
+    let id = ExperimentId::from_uuid(uuid(number));
+    new.view.kind = JobKind::Experiment;
+    new.work = Work::Experiment { experiment: id.clone() };
+    let view = ExperimentView {
+        id,
+        name: format!("experiment {number}"),
+        job: new.view.id.clone(),
+        state: State::Queued,
+        seed: 7,
+        repetitions: 2,
+        cells: 2,
+        runs: 4,
+        finished_runs: 0,
+        created_at: AT,
+    };
+    let plan = Plan { name: view.name.clone(), seed: 7, repetitions: 2, cells: Vec::new() };
+    new.experiment = Some(NewExperiment { view, plan });
+    new
+}
+
+fn row(cell: u32, repetition: u32) -> RunRow {
+    RunRow {
+        id: Which { cell, repetition },
+        seed: 7 + u64::from(repetition),
+        evaluations: 5,
+        discrepancy: 0.1 + 0.2,
+        true_discrepancy: None,
+        painted_percent: None,
+        invalid: false,
+        evaluations_per_goal: vec![2, 3],
+        provenance: Tally { simulated: 5, ..Tally::default() },
+        digest: "d".to_owned(),
+    }
+}
+
+pub(crate) async fn keeps_an_experiment_with_its_job_and_its_rows_with_the_claim(store: &dyn Store) {
+    store.begin_epoch(AT).await.unwrap();
+    let new = experiment(1);
+    let kept = new.experiment.clone().unwrap();
+    let id = kept.view.id.clone();
+    store.submit(new.clone(), None).await.unwrap();
+    assert_eq!(store.experiment(&id).await.unwrap(), kept.view);
+    assert_eq!(store.experiment_plan(&id).await.unwrap(), kept.plan);
+    assert_eq!(store.job(&new.view.id).await.unwrap().result.experiment.as_ref(), Some(&id));
+
+    let claim = claimed(store).await.unwrap().claim;
+    store.advance(&claim, transition(Event::Start), AT).await.unwrap();
+    let rows = |rows: &[RunRow]| Advance { rows: rows.to_vec(), ..Advance::default() };
+    store.advance(&claim, rows(&[row(1, 0), row(0, 1)]), AT).await.unwrap();
+    store.advance(&claim, rows(&[row(0, 0)]), AT).await.unwrap();
+    // A run that is there already takes the whole step back, its new rows and its count.
+    assert!(store.advance(&claim, rows(&[row(1, 1), row(0, 0)]), AT).await.is_err());
+    let found = store.experiment(&id).await.unwrap();
+    assert_eq!((found.state, found.finished_runs), (State::Running, 3));
+    let all = store.experiment_rows(&id, &RowFilter::default()).await.unwrap();
+    assert_eq!(all, [row(0, 0), row(0, 1), row(1, 0)]);
+    let second = RowFilter { cell: None, after: Some(Which { cell: 0, repetition: 0 }), limit: Some(1) };
+    assert_eq!(store.experiment_rows(&id, &second).await.unwrap(), [row(0, 1)]);
+    let of_cell = RowFilter { cell: Some(1), ..RowFilter::default() };
+    assert_eq!(store.experiment_rows(&id, &of_cell).await.unwrap(), [row(1, 0)]);
+
+    // A lost claim writes no row; a job without an experiment has no place for one.
+    store.begin_epoch(AT).await.unwrap();
+    let late = store.advance(&claim, rows(&[row(1, 1)]), AT).await;
+    assert!(matches!(late, Err(StoreError::LeaseLost { .. })));
+    submitted(store, 2).await;
+    claimed(store).await.unwrap();
+    let plain = claimed(store).await.unwrap().claim;
+    assert!(matches!(store.advance(&plain, rows(&[row(0, 0)]), AT).await, Err(StoreError::NotFound { .. })));
+    store.submit(experiment(3), None).await.unwrap();
+    let names: Vec<_> = store.experiments(&page(9, "")).await.unwrap().into_iter().map(|view| view.name).collect();
+    assert_eq!(names, ["experiment 3", "experiment 1"]);
+    let missing = ExperimentId::from_uuid(uuid(9));
+    assert!(matches!(store.experiment_plan(&missing).await, Err(StoreError::NotFound { .. })));
 }

@@ -1,5 +1,6 @@
 //! Jobs: submitted once, run durably, watched by events with a durable sequence.
 
+mod estimate;
 mod resolve;
 mod types;
 mod watch;
@@ -11,8 +12,9 @@ pub use types::{
 };
 pub use work::{ExecutionWork, Work};
 
+use crate::app::experiments::ExperimentView;
 use crate::app::id::JobId;
-use crate::app::ports::{IdempotencyKey, NewJob, Submitted, Transition, Wake};
+use crate::app::ports::{IdempotencyKey, NewExperiment, NewJob, Submitted, Transition, Wake};
 use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, out_of_bounds};
 use crate::framework::job::{Event, State};
 use resolve::Resolved;
@@ -58,7 +60,22 @@ impl App {
             started_at: None,
             finished_at: None,
         };
-        let new = NewJob { view, work: resolved.work, uses: resolved.uses };
+        let experiment = resolved.experiment.map(|(id, plan)| {
+            let view = ExperimentView {
+                id,
+                name: plan.name.clone(),
+                job: view.id.clone(),
+                state: view.state,
+                seed: plan.seed,
+                repetitions: plan.repetitions,
+                cells: u32::try_from(plan.cells.len()).unwrap_or(u32::MAX),
+                runs: plan.runs(),
+                finished_runs: 0,
+                created_at: now,
+            };
+            NewExperiment { view, plan }
+        });
+        let new = NewJob { view, work: resolved.work, uses: resolved.uses, experiment };
         match self.ports.store.submit(new, key).await? {
             Submitted::Created(job) => {
                 self.ports.events.publish(Wake::Queued);
@@ -135,7 +152,13 @@ impl App {
         let key = idempotency_key.map(|key| checked_key(key, format!("clone {id}").as_bytes())).transpose()?;
         let job = self.get_job(id).await?;
         let work = self.ports.store.work(id).await?;
-        let resolved = Resolved::again(job.name, job.request, work);
+        let resolved = match work {
+            Work::Experiment { experiment } => {
+                let plan = self.ports.store.experiment_plan(&experiment).await?;
+                self.resolved_experiment(job.name, job.request, plan)
+            }
+            work => Resolved::again(job.name, job.request, work),
+        };
         self.submit(resolved, key).await
     }
 

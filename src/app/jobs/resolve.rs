@@ -1,28 +1,21 @@
 //! From a request to all a job needs: references are looked up, what was left open is filled in, and the whole is
 //! checked as the worker will check it. The same code answers a dry run.
 
-use super::{
-    CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work,
-};
-use crate::app::ports::{Clock, SEED_BOUND, StoreError, Usage};
+use super::estimate::estimate;
+use super::{CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work};
+use crate::app::id::ExperimentId;
+use crate::app::ports::{SEED_BOUND, StoreError, Usage};
 use crate::app::{App, AppError, ErrorKind, FieldError, chain_text, check_name, compute};
-use crate::framework::execution::{Iet, Problem, simulate};
+use crate::framework::execution::{Iet, Problem};
+use crate::framework::experiment::Plan;
 use crate::framework::generalization::Goals;
-use crate::framework::world;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// Most repetitions of one job.
 const MAX_REPETITIONS: u32 = 1000;
 /// Most demonstrations of one action.
 const MAX_DEMONSTRATIONS: usize = 1000;
-/// Evaluations of a dry run's trial: enough for most problems to end.
-const TRIAL_EVALUATIONS: u64 = 50_000;
-/// .. but no longer than this.
-const TRIAL_TIME: Duration = Duration::from_millis(500);
-/// A trial on a robot, as far as an estimate knows.
-const ROBOT_TRIAL_S: f64 = 15.0;
 
 /// A job that can be submitted.
 pub(super) struct Resolved {
@@ -31,12 +24,16 @@ pub(super) struct Resolved {
     pub work: Work,
     pub uses: Usage,
     pub progress: JobProgress,
+    /// The experiment to keep with it.
+    pub experiment: Option<(ExperimentId, Plan)>,
 }
 
 impl Resolved {
     fn new(name: String, request: CreateJob, work: Work) -> Self {
         let (uses, progress) = match &work {
-            Work::Generalization(_) => (Usage::default(), JobProgress { repetitions: 1, ..JobProgress::default() }),
+            Work::Generalization(_) | Work::Experiment { .. } => {
+                (Usage::default(), JobProgress { repetitions: 1, ..JobProgress::default() })
+            }
             Work::Execution(work) => {
                 let uses = Usage {
                     action: Some(work.action.clone()),
@@ -47,7 +44,7 @@ impl Resolved {
                 (uses, JobProgress { repetitions: work.repetitions, goals, ..JobProgress::default() })
             }
         };
-        Self { name, request, work, uses, progress }
+        Self { name, request, work, uses, progress, experiment: None }
     }
 
     /// What was resolved before.
@@ -65,7 +62,7 @@ impl App {
         let estimate = match self.resolve(request).await {
             Ok(resolved) => {
                 let clock = Arc::clone(&self.ports.clock);
-                compute(move || estimate(&resolved.work, clock.as_ref())).await?
+                compute(move || estimate(&resolved, clock.as_ref())).await?
             }
             Err(error) => Err(error),
         };
@@ -82,7 +79,19 @@ impl App {
         match request {
             CreateJob::Generalization(request) => self.resolve_generalization(request).await,
             CreateJob::Execution(request) => self.resolve_execution(request).await,
+            CreateJob::Experiment(request) => {
+                let (request, plan) = self.plan_experiment(request).await?;
+                Ok(self.resolved_experiment(plan.name.clone(), CreateJob::Experiment(request), plan))
+            }
         }
+    }
+
+    /// A new experiment with this plan.
+    pub(super) fn resolved_experiment(&self, name: String, request: CreateJob, plan: Plan) -> Resolved {
+        let id = ExperimentId::from_uuid(self.ports.ids.uuid());
+        let work = Work::Experiment { experiment: id.clone() };
+        let progress = JobProgress { repetitions: plan.repetitions, ..JobProgress::default() };
+        Resolved { progress, experiment: Some((id, plan)), ..Resolved::new(name, request, work) }
     }
 
     async fn resolve_generalization(&self, request: GeneralizationRequest) -> Result<Resolved, AppError> {
@@ -199,40 +208,4 @@ fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, 
         StoreError::NotFound { .. } => Ok(FieldError::new(pointer, "not_found", error.to_string())),
         error => Err(error.into()),
     }
-}
-
-/// Runs the first repetition for a short while and scales up what it took.
-fn estimate(work: &Work, clock: &dyn Clock) -> Result<CostEstimate, AppError> {
-    let Work::Execution(work) = work else {
-        let basis = "a generalization evaluates nothing".to_owned();
-        return Ok(CostEstimate { evaluations: 0, simulated_s: 0.1, robot_s: 0.0, basis });
-    };
-    let wrong =
-        |error: &(dyn std::error::Error + 'static)| AppError::field("/execution", "invalid_problem", chain_text(error));
-    let mut iet = Iet::new(&work.problem, work.seed).map_err(|error| wrong(&error))?;
-    let mut place = world::build(&work.problem.world, iet.chain()).map_err(|error| wrong(&error))?;
-    let started = clock.elapsed();
-    let elapsed = || clock.elapsed().saturating_sub(started);
-    let mut progress = iet.progress();
-    while !progress.finished && progress.evaluations < TRIAL_EVALUATIONS && elapsed() < TRIAL_TIME {
-        progress = simulate(&mut iet, place.as_mut(), 1000).map_err(|error| wrong(&error))?;
-    }
-    let per_evaluation_s = elapsed().as_secs_f64() / progress.evaluations.max(1) as f64;
-    let goals = progress.goals as f64;
-    let (evaluations_of_one, basis) = if progress.finished {
-        (progress.evaluations as f64, "the first repetition, simulated to its end".to_owned())
-    } else {
-        let done = progress.goal_index as f64 + 0.5;
-        let basis = format!("{} of {goals} goals of the first repetition, simulated", progress.goal_index);
-        (progress.evaluations as f64 * goals / done, basis)
-    };
-    let evaluations = evaluations_of_one * f64::from(work.repetitions);
-    let paced_s = work.max_evaluations_per_s.map_or(0.0, |rate| evaluations / rate);
-    Ok(CostEstimate {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of evaluations, >= 0")]
-        evaluations: evaluations as u64,
-        simulated_s: (evaluations * per_evaluation_s).max(paced_s),
-        robot_s: evaluations * ROBOT_TRIAL_S,
-        basis,
-    })
 }

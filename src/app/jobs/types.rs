@@ -1,6 +1,7 @@
 //! Requests for jobs, and what is shown of them.
 
-use crate::app::id::{ActionId, DemonstrationId, JobId, RobotId, RunId, TrajectoryId, WorldId};
+use crate::app::experiments::ExperimentRequest;
+use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::runs::RunGoal;
 use crate::app::{FieldError, Timestamp};
 use crate::framework::execution::ExecutionSpec;
@@ -19,6 +20,8 @@ pub enum JobKind {
     Generalization,
     /// Finds the joint trajectory with which a robot produces an action's effects.
     Execution,
+    /// Runs many settings many times and compares them.
+    Experiment,
 }
 
 impl JobKind {
@@ -28,6 +31,7 @@ impl JobKind {
         match self {
             Self::Generalization => "generalization",
             Self::Execution => "execution",
+            Self::Experiment => "experiment",
         }
     }
 }
@@ -41,6 +45,8 @@ pub enum CreateJob {
     Generalization(GeneralizationRequest),
     /// Executes an action on a robot.
     Execution(ExecutionRequest),
+    /// Runs many settings many times.
+    Experiment(ExperimentRequest),
 }
 
 /// Which demonstrations become an action, and how.
@@ -196,6 +202,9 @@ pub struct JobResult {
     pub action: Option<ActionId>,
     /// The runs, of an execution, in the order of repetitions.
     pub runs: Vec<RunId>,
+    /// The experiment, from its submission on.
+    #[serde(default)]
+    pub experiment: Option<ExperimentId>,
 }
 
 /// Why a job failed.

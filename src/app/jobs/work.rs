@@ -1,6 +1,6 @@
 //! All a job needs, resolved when it was submitted.
 
-use crate::app::id::{ActionId, DemonstrationId, RobotId, WorldId};
+use crate::app::id::{ActionId, DemonstrationId, ExperimentId, RobotId, WorldId};
 use crate::app::jobs::{GeneralizationRequest, JobKind};
 use crate::framework::execution::Problem;
 use serde::{Deserialize, Serialize};
@@ -13,6 +13,11 @@ pub enum Work {
     Generalization(GeneralizationRequest),
     /// Runs a problem.
     Execution(Box<ExecutionWork>),
+    /// Runs an experiment; its plan is stored once, with it.
+    Experiment {
+        /// The experiment.
+        experiment: ExperimentId,
+    },
 }
 
 /// An execution, self-contained.
@@ -41,6 +46,7 @@ impl Work {
         match self {
             Self::Generalization(_) => JobKind::Generalization,
             Self::Execution(_) => JobKind::Execution,
+            Self::Experiment { .. } => JobKind::Experiment,
         }
     }
 
@@ -49,7 +55,7 @@ impl Work {
     pub fn demonstrations(&self) -> &[DemonstrationId] {
         match self {
             Self::Generalization(request) => &request.demonstrations,
-            Self::Execution(_) => &[],
+            Self::Execution(_) | Self::Experiment { .. } => &[],
         }
     }
 }

@@ -9,13 +9,15 @@
 
 use crate::app::actions::{ActionGoals, ActionView};
 use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
-use crate::app::id::{ActionId, DemonstrationId, JobId, RobotId, RunId, TrajectoryId, WorldId};
+use crate::app::experiments::{ExperimentView, RowFilter};
+use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::jobs::{EventData, EventPage, JobFailure, JobFilter, JobProgress, JobView, Work};
 use crate::app::robots::RobotView;
 use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
 use crate::app::trajectories::TrajectoryView;
 use crate::app::worlds::WorldView;
 use crate::app::{AppError, ErrorKind, Keyset, Timestamp};
+use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::{Event, InvalidTransition, State};
 use async_trait::async_trait;
 use std::sync::Arc;
@@ -141,6 +143,17 @@ pub struct NewJob {
     pub work: Work,
     /// What it names: it cannot be deleted as long as the job is kept.
     pub uses: Usage,
+    /// The experiment it runs, kept together with it.
+    pub experiment: Option<NewExperiment>,
+}
+
+/// An experiment to keep.
+#[derive(Debug, Clone)]
+pub struct NewExperiment {
+    /// What is shown of it; `state` and `finished_runs` are read from its job and its rows.
+    pub view: ExperimentView,
+    /// All it takes to run it.
+    pub plan: Plan,
 }
 
 /// Resources a job names.
@@ -222,6 +235,8 @@ pub struct NewRun {
 pub struct Advance {
     /// Runs that ended.
     pub runs: Vec<NewRun>,
+    /// Runs of the job's experiment that ended. Rows are progress: they set the count of crashes back to 0.
+    pub rows: Vec<RunRow>,
     /// The action that was made; the store counts its version.
     pub action: Option<(ActionView, ActionGoals)>,
     /// Progress to show.
@@ -330,6 +345,14 @@ pub trait Store: Send + Sync {
     async fn run_convergence(&self, id: &RunId) -> Result<Vec<ConvergencePoint>, StoreError>;
     /// Runs.
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError>;
+    /// One experiment.
+    async fn experiment(&self, id: &ExperimentId) -> Result<ExperimentView, StoreError>;
+    /// Experiments.
+    async fn experiments(&self, keyset: &Keyset) -> Result<Vec<ExperimentView>, StoreError>;
+    /// All it takes to run it.
+    async fn experiment_plan(&self, id: &ExperimentId) -> Result<Plan, StoreError>;
+    /// Its finished runs by cell, then repetition; none for an experiment that is not there.
+    async fn experiment_rows(&self, id: &ExperimentId, filter: &RowFilter) -> Result<Vec<RunRow>, StoreError>;
     /// One trajectory.
     async fn trajectory(&self, id: &TrajectoryId) -> Result<TrajectoryView, StoreError>;
 }

@@ -103,7 +103,11 @@ impl From<GoalProgress> for proto::GoalProgress {
 
 impl From<JobResult> for proto::JobResult {
     fn from(result: JobResult) -> Self {
-        Self { action: result.action.map(Into::into), runs: result.runs.into_iter().map(String::from).collect() }
+        Self {
+            action: result.action.map(Into::into),
+            runs: result.runs.into_iter().map(String::from).collect(),
+            experiment: result.experiment.map(Into::into),
+        }
     }
 }
 

@@ -17,6 +17,7 @@ pub fn work(work: Option<proto::Work>) -> Result<CreateJob, AppError> {
     match required("/kind", work.and_then(|work| work.kind))? {
         Kind::Generalization(work) => generalization(work).map(CreateJob::Generalization),
         Kind::Execution(work) => execution(work).map(CreateJob::Execution),
+        Kind::ExperimentJson(json) => document("/experiment_json", &json).map(CreateJob::Experiment),
     }
 }
 
@@ -120,6 +121,7 @@ impl From<CreateJob> for proto::Work {
         let kind = match work {
             CreateJob::Generalization(work) => Kind::Generalization(work.into()),
             CreateJob::Execution(work) => Kind::Execution(work.into()),
+            CreateJob::Experiment(work) => Kind::ExperimentJson(json(&work)),
         };
         Self { kind: Some(kind) }
     }
@@ -199,6 +201,7 @@ mod tests {
             serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
                 "world": format!("wld_{id}"), "seed": 7, "repetitions": 3, "execution": {"tolerance": 5.0,
                 "method": {"name": "sst", "population": 10, "stagnation": 4, "ecf_gene0_quirk": true}}}),
+            serde_json::json!({"kind": "experiment", "paper_table": "all", "repetitions": 3, "seed": 7}),
             serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
                 "world": format!("wld_{id}"), "seed": 7, "execution": {
                 "method": {"name": "fi_pso", "swarm": {"population": 10}, "inheritance_probability": 0.25},

@@ -6,7 +6,7 @@
 use super::jobs::{append, apply, row};
 use super::rows::{digest, json, value};
 use super::statements::statements;
-use super::{SqliteStore, engine_error, results};
+use super::{SqliteStore, engine_error, experiments, results};
 use crate::app::Timestamp;
 use crate::app::id::JobId;
 use crate::app::jobs::JobFailure;
@@ -214,6 +214,10 @@ async fn write_step(
     let mut job = row(connection, id).await?;
     for run in &step.runs {
         results::insert_run(connection, run).await?;
+    }
+    if !step.rows.is_empty() {
+        experiments::insert_rows(connection, id, &step.rows).await?;
+        sqlx::query(FORGET_CRASHES).bind(id).execute(&mut *connection).await.map_err(engine_error)?;
     }
     if let Some((view, goals)) = step.action {
         results::insert_action(connection, view, &goals).await?;

@@ -16,7 +16,8 @@ macro_rules! select_jobs {
             "SELECT id, kind, name, state, state_reason, state_since, attempt, crashes, last_seq, progress, request,
                 failure, created_at, started_at, finished_at,
                 (SELECT json_group_array(runs.id ORDER BY repetition) FROM runs WHERE runs.job_id = jobs.id) AS runs,
-                (SELECT actions.id FROM actions WHERE actions.job_id = jobs.id) AS action
+                (SELECT actions.id FROM actions WHERE actions.job_id = jobs.id) AS action,
+                (SELECT experiments.id FROM experiments WHERE experiments.job_id = jobs.id) AS experiment
              FROM jobs ",
             $tail
         )
@@ -73,6 +74,7 @@ pub(super) struct JobRow {
     finished_at: Option<i64>,
     runs: String,
     action: Option<String>,
+    experiment: Option<String>,
 }
 
 impl JobRow {
@@ -90,6 +92,8 @@ impl JobRow {
 
     pub(super) fn view(&self) -> Result<JobView, StoreError> {
         let action = self.action.as_ref().map(|id| id.parse().map_err(|_| self.corrupt("action", id))).transpose()?;
+        let experiment = self.experiment.as_ref();
+        let experiment = experiment.map(|id| id.parse().map_err(|_| self.corrupt("experiment", id))).transpose()?;
         Ok(JobView {
             id: self.id()?,
             kind: value("job kind", &format!("{:?}", self.kind))?,
@@ -100,7 +104,7 @@ impl JobRow {
             attempt: self.attempt,
             progress: value(&self.id, &self.progress)?,
             request: value(&self.id, &self.request)?,
-            result: JobResult { action, runs: value(&self.id, &self.runs)? },
+            result: JobResult { action, runs: value(&self.id, &self.runs)?, experiment },
             failure: self.failure.as_deref().map(|text| value(&self.id, text)).transpose()?,
             last_seq: count(self.last_seq),
             created_at: Timestamp(self.created_at),
@@ -192,6 +196,9 @@ pub(super) async fn submit(
                     }
                 }
                 insert(connection, &new).await?;
+                if let Some(experiment) = &new.experiment {
+                    super::experiments::insert(connection, &new.view.id, experiment).await?;
+                }
                 let id = new.view.id.as_str();
                 let mut job = row(connection, id).await?;
                 let data = EventData::State { state: State::Queued, reason: None, attempt: 0 };

@@ -2,6 +2,7 @@
 
 mod claims;
 mod demonstrations;
+mod experiments;
 mod jobs;
 mod open;
 mod results;
@@ -16,7 +17,8 @@ pub use open::OpenError;
 
 use crate::app::actions::{ActionGoals, ActionView};
 use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
-use crate::app::id::{ActionId, DemonstrationId, JobId, RobotId, RunId, TrajectoryId, WorldId};
+use crate::app::experiments::{ExperimentView, RowFilter};
+use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::jobs::{EventPage, JobFilter, JobView, Work};
 use crate::app::ports::{
     Advance, Claim, Claimed, IdempotencyKey, NewDemonstration, NewJob, NewRobot, Store, StoreError, Submitted,
@@ -27,6 +29,7 @@ use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
 use crate::app::trajectories::TrajectoryView;
 use crate::app::worlds::WorldView;
 use crate::app::{Keyset, Timestamp};
+use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::State;
 use async_trait::async_trait;
 use sqlx::sqlite::{SqlitePool, SqlitePoolOptions};
@@ -220,6 +223,18 @@ impl Store for SqliteStore {
     }
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError> {
         results::runs(self, filter, keyset).await
+    }
+    async fn experiment(&self, id: &ExperimentId) -> Result<ExperimentView, StoreError> {
+        experiments::get(self, id.as_str()).await
+    }
+    async fn experiments(&self, keyset: &Keyset) -> Result<Vec<ExperimentView>, StoreError> {
+        experiments::list(self, keyset).await
+    }
+    async fn experiment_plan(&self, id: &ExperimentId) -> Result<Plan, StoreError> {
+        experiments::plan(self, id.as_str()).await
+    }
+    async fn experiment_rows(&self, id: &ExperimentId, filter: &RowFilter) -> Result<Vec<RunRow>, StoreError> {
+        experiments::rows(self, id, filter).await
     }
     async fn trajectory(&self, id: &TrajectoryId) -> Result<TrajectoryView, StoreError> {
         results::trajectory(self, id.as_str()).await

@@ -27,14 +27,21 @@ conformance! { fresh();
     quarantines_only_jobs_that_crash_without_progress,
     takes_back_jobs_whose_lease_ran_out,
     steers_jobs_as_the_machine_allows,
+    keeps_an_experiment_with_its_job_and_its_rows_with_the_claim,
 }
 
 #[tokio::test]
 async fn every_statement_prepares_on_a_fresh_database() {
     let (directory, _store) = fresh().await;
     let mut connection = open::writing(&directory.path().join("cgda.db")).connect().await.unwrap();
-    let modules =
-        [claims::STATEMENTS, demonstrations::STATEMENTS, jobs::STATEMENTS, results::STATEMENTS, robots::STATEMENTS];
+    let modules = [
+        claims::STATEMENTS,
+        demonstrations::STATEMENTS,
+        experiments::STATEMENTS,
+        jobs::STATEMENTS,
+        results::STATEMENTS,
+        robots::STATEMENTS,
+    ];
     let mut prepared = 0;
     for statement in modules.into_iter().flatten() {
         if let Err(error) = connection.prepare((*statement).into_sql_str()).await {
