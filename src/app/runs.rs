@@ -4,7 +4,7 @@ use crate::app::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::trajectories::TrajectoryView;
 use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, Timestamp, out_of_bounds};
 use crate::framework::Feature;
-use crate::framework::optimizer::StopReason;
+use crate::framework::optimizer::{Provenance, StopReason, Tally};
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -34,6 +34,15 @@ pub struct RunView {
     pub evaluations: u64,
     /// Discrepancy of the whole observation, features' unit.
     pub discrepancy: f64,
+    /// What the last goal's winner really does, where `discrepancy` is the value of one that was never executed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub true_discrepancy: Option<f64>,
+    /// Whether the last goal's joints satisfy the constraints; true where there are none.
+    #[serde(default = "satisfied")]
+    pub valid: bool,
+    /// Where the fitness values of all goals come from, by count.
+    #[serde(default)]
+    pub provenance: Tally,
     /// Share of the surface painted, %, in a world of coverage.
     pub painted_percent: Option<f64>,
     /// Number of goals.
@@ -46,6 +55,16 @@ pub struct RunView {
     pub trajectory_problem: Option<String>,
     /// When it ended.
     pub created_at: Timestamp,
+}
+
+/// Runs of versions without constraints.
+fn satisfied() -> bool {
+    true
+}
+
+/// Winners of versions that executed every candidate.
+fn simulated() -> Provenance {
+    Provenance::Simulated
 }
 
 /// One goal of a run.
@@ -65,6 +84,18 @@ pub struct RunGoal {
     pub observation: Vec<f64>,
     /// What was asked for.
     pub goal: Vec<f64>,
+    /// Where the winner's discrepancy comes from.
+    #[serde(default = "simulated")]
+    pub winner: Provenance,
+    /// What the winner really does, where `discrepancy` is the value of one that was never executed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub true_discrepancy: Option<f64>,
+    /// Whether the joints satisfy the constraints; true where there are none.
+    #[serde(default = "satisfied")]
+    pub feasible: bool,
+    /// Where the fitness values of this goal come from, by count.
+    #[serde(default)]
+    pub provenance: Tally,
 }
 
 /// All goals of a run.

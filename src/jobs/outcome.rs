@@ -49,6 +49,9 @@ pub(super) fn finished_run(
         seed: result.seed,
         evaluations: result.evaluations,
         discrepancy: result.discrepancy,
+        true_discrepancy: result.true_discrepancy,
+        valid: result.valid,
+        provenance: result.tally,
         painted_percent: result.painted_percent,
         goals: u32::try_from(result.goals.len()).unwrap_or(u32::MAX),
         digest: result.digest.clone(),
@@ -108,6 +111,10 @@ fn goals(result: &RunResult, work: &ExecutionWork) -> Vec<RunGoal> {
         joints: goal.joints.clone(),
         observation: goal.observation.clone(),
         goal: wanted.to_vec(),
+        winner: goal.provenance,
+        true_discrepancy: goal.true_discrepancy,
+        feasible: goal.feasible,
+        provenance: goal.tally,
     });
     goals.collect()
 }
