@@ -43,6 +43,14 @@ export function useRuns(job: string, enabled: boolean) {
   });
 }
 
+export function useExperimentTable(id: string, final: boolean) {
+  return useQuery({
+    queryKey: ["experiments", id, "table", { final }],
+    queryFn: () => body(api.GET("/api/v1/experiments/{id}/table", { params: { path: { id } } })),
+    refetchInterval: final ? false : CALM_MS,
+  });
+}
+
 export function useRun(id: string) {
   return useQuery({
     queryKey: ["runs", id],

@@ -11,6 +11,7 @@ import { Card, PageHead, StateBadge } from "../../ui/basics";
 import { Loaded, Notice } from "../../ui/feedback";
 import { StreamHealthBadge } from "../../ui/StreamHealth";
 import { ExecutionLive } from "./ExecutionLive";
+import { ExperimentResult } from "./ExperimentResult";
 import { JobControls } from "./JobControls";
 import { JobSettings } from "./JobSettings";
 import { RunsTable } from "./RunsTable";
@@ -47,6 +48,8 @@ function JobView({ job, live, health }: { job: Job; live: LiveJob; health: Strea
         {job.failure == null && reason != null && reason !== "" && <Notice tone="warn" title={reason} />}
         {job.kind === "execution" ? (
           <Execution job={job} live={live} state={state} />
+        ) : job.kind === "experiment" ? (
+          <ExperimentResult job={job} state={state} />
         ) : (
           <Generalization job={job} />
         )}

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { Link } from "react-router";
 import { useAction, useRobot, useWorld } from "../../api/queries";
-import type { CreateJob, Job } from "../../api/types";
+import type { CreateJob, Job, MethodSpec } from "../../api/types";
 import { formatDateTime, formatNumber, humanize } from "../../lib/format";
 import { Card, Facts, type Fact } from "../../ui/basics";
 
@@ -35,13 +35,22 @@ function requestFacts(request: CreateJob): Fact[] {
       { name: "Features", value: request.features?.join(", ") ?? "all" },
     ];
   }
+  if (request.kind === "experiment") {
+    const { paper_table: table, cells = [], matrix } = request;
+    return [
+      ...(table == null ? [] : [{ name: "Tables of the paper", value: String(table) }]),
+      ...(cells.length === 0 ? [] : [{ name: "Own cells", value: cells.length }]),
+      ...(matrix == null ? [] : [{ name: "Matrix of presets", value: matrix.presets.join(", ") }]),
+      { name: "First seed", value: String(request.seed) },
+      { name: "Repetitions of each cell", value: request.repetitions ?? 1 },
+    ];
+  }
   const { execution, seed, repetitions = 1 } = request;
-  const method = execution.method;
   const given: [string, ReactNode][] = [
     ["Action", <ActionLink key="action" id={request.action} />],
     ["Robot", <RobotLink key="robot" id={request.robot} />],
     ["World", <WorldName key="world" id={request.world} />],
-    ["Method", `${method.name.toUpperCase()}, P ${method.population ?? 50}, S ${method.stagnation ?? 3}`],
+    ["Method", methodName(execution.method)],
     ["Metric", humanize(execution.metric)],
     ["Tolerance", execution.tolerance],
     ["Target discrepancy", execution.target_discrepancy],
@@ -51,6 +60,11 @@ function requestFacts(request: CreateJob): Fact[] {
     ["Repetitions", repetitions],
   ];
   return given.flatMap(([name, value]) => (value == null ? [] : [{ name, value }]));
+}
+
+function methodName(method: MethodSpec): string {
+  const name = method.name.replace("_", "-").toUpperCase();
+  return method.name === "sst" ? `${name}, P ${method.population ?? 50}, S ${method.stagnation ?? 3}` : name;
 }
 
 function ActionLink({ id }: { id: string }) {

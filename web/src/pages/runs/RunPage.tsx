@@ -9,6 +9,7 @@ import { Card, Facts, PageHead } from "../../ui/basics";
 import { Loaded, Notice } from "../../ui/feedback";
 import { GoalsTable } from "./GoalsTable";
 import { Replay } from "./Replay";
+import { ProvenanceLegend } from "../../ui/Provenance";
 
 export function RunPage() {
   const { id = "" } = useParams();
@@ -49,6 +50,12 @@ export function commonUnit(features: readonly Feature[]): string {
   return units.size === 1 ? ([...units][0] ?? "") : "";
 }
 
+/** The number of fitness values of each origin; absent for runs of versions that did not count. */
+function counted({ simulated = 0, real = 0, inherited = 0, granule = 0, penalised = 0 }: Run["provenance"] = {}) {
+  const origins = Object.entries({ simulated, real, inherited, granule, penalised });
+  return Object.fromEntries(origins.filter(([, count]) => count > 0).map(([kind, count]) => [kind, formatCount(count)]));
+}
+
 function RunFacts({ run, features }: { run: Run; features: readonly Feature[] }) {
   const painted = run.painted_percent == null ? [] : [{ name: "Painted", value: formatQuantity(run.painted_percent, "%") }];
   return (
@@ -71,6 +78,7 @@ function RunFacts({ run, features }: { run: Run; features: readonly Feature[] })
           { name: "Digest of the result", value: <code title={run.digest}>{run.digest.slice(0, 16)}…</code> },
         ]}
       />
+      <ProvenanceLegend counts={counted(run.provenance)} />
     </div>
   );
 }
