@@ -39,7 +39,6 @@ impl JobKind {
 /// A new job; `kind` picks one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
-#[expect(clippy::large_enum_variant, reason = "one a request, never stored in numbers")]
 pub enum CreateJob {
     /// Makes an action of demonstrations.
     Generalization(GeneralizationRequest),
