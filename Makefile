@@ -67,11 +67,11 @@ test-web: web/node_modules/.package-lock.json ## unit tests of the dashboard
 	cd web && npm run --silent test
 
 test-e2e: web/dist/index.html ## the dashboard in a real browser against a real server
-	cargo build --locked --quiet
+	cargo test --locked --quiet --no-run
 	cd web && npm run --silent test:e2e
 
 test-examples: ## the client scripts of examples/ over REST and gRPC
-	cargo build --locked --quiet
+	cargo test --locked --quiet --no-run
 	tests/examples.sh target/debug/cgda $(TOOLS)/python
 
 torture: setup-test ## the slow suites: repeated kills, long runs
