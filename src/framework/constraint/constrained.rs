@@ -18,9 +18,9 @@ use super::error::ConstraintError;
 use super::penalty::{self, PenaltyState, penalised};
 use super::set::{Constraints, Proposal};
 use super::spec::{HandlingSpec, OnInfeasible, PenaltyKind};
-use super::state::{ConstrainedState, Known, STATE_VERSION, Waiting};
+use super::state::{ConstrainedState, STATE_VERSION, Waiting};
 use crate::framework::optimizer::{
-    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, RandomStream, SearchSpace, StopReason, Tally,
+    Batch, Best, Hall, Optimizer, OptimizerError, OptimizerState, Outcome, RandomStream, SearchSpace, StopReason, Tally,
 };
 use std::sync::Arc;
 
@@ -295,7 +295,7 @@ impl Optimizer for Constrained {
             }
             (Outcome::Observed { fitness, observation, provenance }, _) => {
                 if self.state.known.as_ref().is_none_or(|known| fitness < known.fitness) {
-                    self.state.known = Some(Known { joints, observation: observation.to_vec(), fitness, provenance });
+                    self.state.known = Some(Hall { joints, observation: observation.to_vec(), fitness, provenance });
                 }
                 self.inner.tell(id, outcome);
             }
@@ -305,7 +305,7 @@ impl Optimizer for Constrained {
     }
 
     fn best(&self) -> Option<Best<'_>> {
-        let known = self.state.known.as_ref().map(Known::as_best);
+        let known = self.state.known.as_ref().map(Hall::as_best);
         match (&self.rules.handling, self.rules.on_infeasible) {
             (HandlingSpec::Penalty(spec), _)
                 if !matches!(spec.penalty, PenaltyKind::Death { .. }) && known.is_some() =>

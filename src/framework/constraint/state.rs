@@ -1,7 +1,7 @@
 //! What the judge of one goal remembers; saved and resumed as it is.
 
 use super::penalty::PenaltyState;
-use crate::framework::optimizer::{Best, OptimizerError, OptimizerState, Provenance, RandomStream, SearchSpace, Tally};
+use crate::framework::optimizer::{Hall, OptimizerError, OptimizerState, RandomStream, SearchSpace, Tally};
 use serde::{Deserialize, Serialize};
 
 /// Version of [`ConstrainedState`]; changes when its meaning does.
@@ -16,26 +16,6 @@ pub(super) struct Waiting {
     pub violations: Vec<f64>,
 }
 
-/// The best feasible candidate executed so far.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Known {
-    pub joints: Vec<f64>,
-    pub observation: Vec<f64>,
-    pub fitness: f64,
-    pub provenance: Provenance,
-}
-
-impl Known {
-    pub fn as_best(&self) -> Best<'_> {
-        Best {
-            joints: &self.joints,
-            fitness: self.fitness,
-            observation: &self.observation,
-            provenance: self.provenance,
-        }
-    }
-}
-
 /// Everything an optimiser under constraints remembers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -48,7 +28,7 @@ pub struct ConstrainedState {
     /// Rejections in a row.
     pub(super) attempts: u32,
     pub(super) waiting: Vec<Waiting>,
-    pub(super) known: Option<Known>,
+    pub(super) known: Option<Hall>,
     /// The smallest violations of an infeasible candidate, one a constraint.
     pub(super) nearest: Option<Vec<f64>>,
     pub(super) tally: Tally,

@@ -1,7 +1,7 @@
 //! The paper's tables as data: 28 cells with what they ran, what was published and what the raw logs hold.
 //!
 //! Source: R. Fernandez-Fernandez, J. G. Victores, D. Estevez, C. Balaguer, "Real evaluations tractability using
-//! continuous goal-directed actions in smart city applications", 2018, doi:10.3390/s18113818; raw means and spreads
+//! continuous goal-directed actions in smart city applications"; raw means and spreads
 //! from the authors' published logs.
 
 use super::patch::merge;

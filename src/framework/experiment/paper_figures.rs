@@ -110,7 +110,8 @@ fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64
     (0..stream.len()).map(sample).collect()
 }
 
-/// Figures 2 and 4 to 10 (3 is a photograph of the robot) by number; `experiment` ran all six tables.
+/// Figures 2 and 4 to 10 by number, from `experiment`, which ran all six tables. Which table 8, 9 and 10 draw is
+/// inferred from the tables.
 ///
 /// # Errors
 /// [`PaperFigureError`] if a run cannot be repeated or a figure not be drawn.

@@ -3,9 +3,9 @@
 use super::{Best, Provenance};
 use serde::{Deserialize, Serialize};
 
-/// The best of all generations.
+/// The best individual so far, kept whole: joints (rad or m), observation and fitness (features' unit).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Hall {
+pub(in crate::framework) struct Hall {
     pub joints: Vec<f64>,
     pub observation: Vec<f64>,
     pub fitness: f64,

@@ -22,6 +22,7 @@ mod swarm;
 pub use affg_pso::AffgState;
 pub use batch::Batch;
 pub use bounds::BoundsRule;
+pub(in crate::framework) use hall::Hall;
 pub use rng::RandomStream;
 pub use spec::{MethodSpec, SstSpec};
 pub use sst::{Sst, SstState};
