@@ -20,6 +20,7 @@ pub mod preset;
 pub mod recognition;
 pub mod robot;
 pub mod trajectory;
+pub mod whole_run;
 pub mod world;
 
 pub use feature::Feature;

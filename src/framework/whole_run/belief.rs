@@ -1,0 +1,167 @@
+//! What MODEL-IET believes of the feature map: a prior mean (a simulator, or the average) plus a Gaussian process.
+
+use super::kernel::Poses;
+use super::process::{Family, Process};
+use super::refine::Local;
+use super::space::Space;
+use super::{FeatureMap, Trial};
+use nalgebra::DMatrix;
+
+/// Step of the central difference through a prior, rad.
+const DIFFERENCE: f64 = 1e-4;
+
+/// Fitted belief with its scratch space.
+pub(super) struct Belief<'a> {
+    process: Process,
+    prior: Option<&'a mut dyn FeatureMap>,
+    average: Vec<f64>,
+    /// Posterior mean at the last pose asked for.
+    pub mean: Vec<f64>,
+    jacobian: Vec<f64>,
+    slope: Vec<f64>,
+    moved: Vec<f64>,
+    ahead: Vec<f64>,
+    behind: Vec<f64>,
+}
+
+/// What a search through the belief minimises.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Aim<'a> {
+    /// X_j.
+    pub goal: &'a [f64],
+    /// Weight of `m var(q)`: above 0 keeps to what is known, below 0 looks optimistically.
+    pub caution: f64,
+}
+
+impl<'a> Belief<'a> {
+    /// The belief after the trials of `logs`; none while nothing was observed.
+    pub fn fit(
+        space: &Space,
+        logs: [&[Trial]; 2],
+        goals: &[Vec<f64>],
+        mut prior: Option<&'a mut dyn FeatureMap>,
+        noise: f64,
+    ) -> Option<Self> {
+        let m = goals.first()?.len();
+        let seen: Vec<(&[f64], &[f64])> = logs
+            .into_iter()
+            .flatten()
+            .filter_map(|trial| Some((trial.joints.as_slice(), trial.observation.as_deref()?)))
+            .collect();
+        let (_, first) = *seen.first()?;
+        let n = seen.len();
+        let mut poses = Poses::new(space);
+        let mut expected = vec![0.0; m];
+        let mut residuals = DMatrix::zeros(n, m);
+        let mut average = vec![0.0; m];
+        for (i, (joints, observed)) in seen.iter().enumerate() {
+            poses.push(joints);
+            if let Some(prior) = prior.as_deref_mut() {
+                prior.predict(joints, &mut expected);
+            }
+            for o in 0..m {
+                residuals[(i, o)] = observed[o] - expected[o];
+            }
+        }
+        if prior.is_none() {
+            for o in 0..m {
+                average[o] = residuals.column(o).mean();
+                residuals.column_mut(o).add_scalar_mut(-average[o]);
+            }
+        }
+        let scale = if prior.is_some() {
+            median((0..n).map(|i| residuals.row(i).norm()).collect())
+        } else {
+            median(goals.iter().map(|goal| distance(first, goal)).collect())
+        };
+        let family = if space.axes.iter().any(|a| a.revolute) { Family::Trig } else { Family::Se };
+        let d = space.len();
+        Some(Self {
+            process: Process::fit(poses, &residuals, family, scale.max(1e-9), noise)?,
+            prior,
+            average,
+            mean: vec![0.0; m],
+            jacobian: vec![0.0; m * d],
+            slope: vec![0.0; d],
+            moved: vec![0.0; d],
+            ahead: vec![0.0; m],
+            behind: vec![0.0; m],
+        })
+    }
+
+    /// Posterior mean into `self.mean`; returns the variance of one feature.
+    pub fn predict(&mut self, pose: &[f64]) -> f64 {
+        let variance = self.process.predict(pose, &mut self.mean);
+        self.add_prior(pose);
+        variance
+    }
+
+    fn add_prior(&mut self, pose: &[f64]) {
+        if let Some(prior) = self.prior.as_deref_mut() {
+            prior.predict(pose, &mut self.ahead);
+            self.mean.iter_mut().zip(&self.ahead).for_each(|(mean, p)| *mean += p);
+        } else {
+            self.mean.iter_mut().zip(&self.average).for_each(|(mean, a)| *mean += a);
+        }
+    }
+
+    /// `|mu - X|^2 + caution m var`.
+    pub fn score(&mut self, pose: &[f64], aim: Aim) -> f64 {
+        let variance = self.predict(pose);
+        squared_distance(&self.mean, aim.goal) + aim.caution * aim.goal.len() as f64 * variance
+    }
+
+    /// As [`Belief::score`], with gradient and Gauss-Newton Hessian.
+    pub fn score_with_slopes(&mut self, pose: &[f64], aim: Aim, local: &mut Local) {
+        let (d, m) = (pose.len(), aim.goal.len());
+        let variance =
+            self.process.predict_with_slopes(pose, &mut self.mean, &mut self.jacobian, &mut self.slope);
+        self.add_prior(pose);
+        if let Some(prior) = self.prior.as_deref_mut() {
+            self.moved.copy_from_slice(pose);
+            for j in 0..d {
+                self.moved[j] = pose[j] + DIFFERENCE;
+                prior.predict(&self.moved, &mut self.ahead);
+                self.moved[j] = pose[j] - DIFFERENCE;
+                prior.predict(&self.moved, &mut self.behind);
+                self.moved[j] = pose[j];
+                for o in 0..m {
+                    self.jacobian[o * d + j] += (self.ahead[o] - self.behind[o]) / (2.0 * DIFFERENCE);
+                }
+            }
+        }
+        let weight = aim.caution * m as f64;
+        local.value = squared_distance(&self.mean, aim.goal) + weight * variance;
+        for j in 0..d {
+            let pull: f64 = (0..m).map(|o| self.jacobian[o * d + j] * (self.mean[o] - aim.goal[o])).sum();
+            local.gradient[j] = 2.0 * pull + weight * self.slope[j];
+            for i in 0..=j {
+                let h: f64 = (0..m).map(|o| self.jacobian[o * d + i] * self.jacobian[o * d + j]).sum();
+                local.hessian[i * d + j] = 2.0 * h;
+                local.hessian[j * d + i] = 2.0 * h;
+            }
+        }
+    }
+
+    /// The fitted process.
+    pub fn process(&self) -> &Process {
+        &self.process
+    }
+}
+
+pub(super) fn squared_distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum()
+}
+
+pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
+    squared_distance(a, b).sqrt()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    match values.len() {
+        0 => 0.0,
+        n if n % 2 == 1 => values[n / 2],
+        n => f64::midpoint(values[n / 2 - 1], values[n / 2]),
+    }
+}

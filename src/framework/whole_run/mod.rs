@@ -1,0 +1,57 @@
+//! Methods that own a whole run: all goals at once, every trial remembered, so that a dozen evaluations can do.
+//!
+//! # Architecture Invariants
+//! - State = configuration + append-only log. `ask` is a pure function of the two: its random stream is seeded by
+//!   (seed, length of the log), so a checkpoint is the log, and a resumed run proposes the same bits.
+//! - A trial is told with its observation *vector*; a trial whose observation was lost is told too, and costs one.
+//! - A measured pose serves every goal it is near; a goal no pose can serve is reported with its best residual.
+//! - No kinematics is needed: joints in, features out, limits known. A simulator is a prior, not a requirement.
+
+mod belief;
+pub mod kernel;
+pub mod model;
+pub mod process;
+pub mod refine;
+pub mod space;
+
+pub use model::{ModelIet, ModelSpec};
+pub use space::{Axis, Space};
+
+use serde::{Deserialize, Serialize};
+
+/// A map from joints to features: a simulated world, right or wrong, as a prior mean.
+pub trait FeatureMap: Send {
+    /// Writes the m features expected at `joints` (rad or m).
+    fn predict(&mut self, joints: &[f64], features: &mut [f64]);
+}
+
+impl<F: FnMut(&[f64], &mut [f64]) + Send> FeatureMap for F {
+    fn predict(&mut self, joints: &[f64], features: &mut [f64]) {
+        self(joints, features);
+    }
+}
+
+/// One executed pose and what was seen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// Joints as commanded, rad or m.
+    pub joints: Vec<f64>,
+    /// The m features seen; none when the observation was lost.
+    pub observation: Option<Vec<f64>>,
+    /// The goal the pose was tried for.
+    pub goal: usize,
+}
+
+/// What a method wants next.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Proposal {
+    /// Execute this pose.
+    Execute {
+        /// Joints, rad or m.
+        joints: Vec<f64>,
+        /// The goal it is meant for.
+        goal: usize,
+    },
+    /// No pose is expected to improve any goal.
+    Finished,
+}

@@ -1,0 +1,303 @@
+//! MODEL-IET: one Gaussian process of the feature map, shared by all goals, decides every trial.
+//!
+//! Identification moves first (nothing known), then, goal by goal, the pose whose predicted features come nearest
+//! while the model is still sure of them. A goal ends when a measured pose is within the tolerance, when the model
+//! expects no improvement even optimistically (out of reach), or after [`ModelSpec::max_tries`].
+//!
+//! Sources: R. Astudillo, P. Frazier, "Bayesian Optimization of Composite Functions", ICML 2019; M. Deisenroth,
+//! C. Rasmussen, PILCO, ICML 2011; K. Chatzilygeroudis et al., Black-DROPS, IROS 2017; A. Cully et al., "Robots that
+//! can adapt like animals", Nature 521 (2015), DOI 10.1038/nature14422.
+
+use super::belief::{Aim, Belief, distance};
+use super::refine::refine;
+use super::space::Space;
+use super::{FeatureMap, Proposal, Trial};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+/// Uniform starts of the search through the model.
+const UNIFORM_STARTS: usize = 600;
+/// Starts near the measured poses closest to the goal.
+const LOCAL_STARTS: usize = 300;
+/// Starts that are refined.
+const REFINED: usize = 5;
+/// Evaluations of a refinement.
+const REFINE_STEPS: usize = 40;
+/// Spread of the local starts, rad.
+const LOCAL_SPREAD: f64 = 0.26;
+
+/// Parameters of MODEL-IET.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ModelSpec {
+    /// A goal is reached within this distance, features' unit (> 0).
+    pub tolerance: f64,
+    /// Standard deviation of one observed feature, features' unit; 0 for a world that is exact.
+    pub noise: f64,
+    /// A goal is given up after this many trials of its own.
+    pub max_tries: u32,
+    /// Size of the identification moves, degrees (of 180 a stroke for prismatic joints).
+    pub identification_deg: f64,
+    /// Largest step of a joint from one trial to the next, degrees (likewise); none where the robot needs none.
+    pub max_step_deg: Option<f64>,
+}
+
+impl Default for ModelSpec {
+    fn default() -> Self {
+        Self { tolerance: 30.0, noise: 0.0, max_tries: 15, identification_deg: 25.0, max_step_deg: None }
+    }
+}
+
+/// The result for one goal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Index of the trial whose pose serves the goal best; none when nothing was observed.
+    pub trial: Option<usize>,
+    /// Its distance from the goal, features' unit (with noise: of the model's mean there).
+    pub distance: f64,
+    /// Whether that is within the tolerance.
+    pub reached: bool,
+}
+
+/// A run of MODEL-IET.
+pub struct ModelIet {
+    spec: ModelSpec,
+    space: Space,
+    goals: Vec<Vec<f64>>,
+    prior: Option<Box<dyn FeatureMap>>,
+    earlier: Vec<Trial>,
+    log: Vec<Trial>,
+    seed: u64,
+    admissible: Option<Box<dyn Fn(&[f64]) -> bool + Send>>,
+}
+
+impl ModelIet {
+    /// A run for `goals` (n rows of m features) over `space`.
+    #[must_use]
+    pub fn new(spec: ModelSpec, space: Space, goals: Vec<Vec<f64>>, seed: u64) -> Self {
+        Self { spec, space, goals, prior: None, earlier: Vec::new(), log: Vec::new(), seed, admissible: None }
+    }
+
+    /// With a simulator as the prior mean.
+    #[must_use]
+    pub fn with_prior(mut self, prior: Box<dyn FeatureMap>) -> Self {
+        self.prior = Some(prior);
+        self
+    }
+
+    /// With the trials of earlier runs on the same robot.
+    #[must_use]
+    pub fn with_earlier(mut self, earlier: Vec<Trial>) -> Self {
+        self.earlier = earlier;
+        self
+    }
+
+    /// With a test that a pose must pass before it is proposed.
+    #[must_use]
+    pub fn with_admissible(mut self, admissible: Box<dyn Fn(&[f64]) -> bool + Send>) -> Self {
+        self.admissible = Some(admissible);
+        self
+    }
+
+    /// The trials so far: with the configuration, the whole state.
+    #[must_use]
+    pub fn log(&self) -> &[Trial] {
+        &self.log
+    }
+
+    /// Appends a trial.
+    pub fn tell(&mut self, trial: Trial) {
+        self.log.push(trial);
+    }
+
+    fn identification_count(&self) -> usize {
+        let nothing_known = self.prior.is_none() && self.earlier.iter().all(|t| t.observation.is_none());
+        if nothing_known { self.space.len() + 1 } else { 0 }
+    }
+
+    fn is_admissible(&self, pose: &[f64]) -> bool {
+        self.admissible.as_ref().is_none_or(|test| test(pose))
+    }
+
+    /// The next pose; a pure function of configuration, log and seed.
+    pub fn ask(&mut self) -> Proposal {
+        let identification = self.identification_count();
+        if self.log.len() < identification {
+            let step = self.spec.identification_deg.to_radians();
+            let pose = self.space.identification(self.log.len(), step);
+            if let Some(joints) = pose.filter(|p| self.is_admissible(p)) {
+                return Proposal::Execute { joints, goal: 0 };
+            }
+        }
+        let mut prior = self.prior.take();
+        let proposal = self.ask_model(identification, prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap));
+        self.prior = prior;
+        proposal
+    }
+
+    fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> Proposal {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        random.set_stream(self.log.len() as u64 + 1);
+        let first = self.log.last().map_or(0, |t| t.goal);
+        let logs = [self.earlier.as_slice(), self.log.as_slice()];
+        if self.log.iter().chain(&self.earlier).all(|t| t.observation.is_none()) {
+            return self.first_with_prior(prior.as_deref_mut(), &mut random);
+        }
+        let Some(mut belief) = Belief::fit(&self.space, logs, &self.goals, prior, self.spec.noise) else {
+            return Proposal::Finished;
+        };
+        for goal in first..self.goals.len() {
+            let trials = self.log.iter().skip(identification);
+            let tries = trials.filter(|t| t.goal == goal).count() as u32;
+            if let Some(joints) = self.ask_goal(goal, tries, &mut belief, &mut random) {
+                let joints = self.capped(joints);
+                return Proposal::Execute { joints, goal };
+            }
+        }
+        Proposal::Finished
+    }
+
+    /// The pose that a prior alone thinks nearest to the first goal.
+    fn first_with_prior(&self, prior: Option<&mut (dyn FeatureMap + '_)>, random: &mut ChaCha8Rng) -> Proposal {
+        let mut best = (f64::INFINITY, self.space.home());
+        if let Some(prior) = prior {
+            let mut seen = vec![0.0; self.goals[0].len()];
+            let mut pose = self.space.home();
+            for start in 0..4 * UNIFORM_STARTS {
+                if start < UNIFORM_STARTS {
+                    self.space.uniform(random, &mut pose);
+                } else {
+                    let spread = LOCAL_SPREAD * 0.5_f64.powi((start / 200) as i32 - 3);
+                    let centre = best.1.clone();
+                    self.space.near(&centre, spread, random, &mut pose);
+                }
+                prior.predict(&pose, &mut seen);
+                let miss = distance(&seen, &self.goals[0]);
+                if miss < best.0 && self.is_admissible(&pose) {
+                    best = (miss, pose.clone());
+                }
+            }
+        }
+        Proposal::Execute { joints: best.1, goal: 0 }
+    }
+
+    /// B: the smallest distance of an own trial to the goal.
+    fn best(&self, goal: usize, belief: &mut Belief) -> (Option<usize>, f64) {
+        let mut best = (None, f64::INFINITY);
+        for (index, trial) in self.log.iter().enumerate() {
+            let Some(observed) = &trial.observation else { continue };
+            let miss = if self.spec.noise > 0.0 {
+                belief.predict(&trial.joints);
+                distance(&belief.mean, &self.goals[goal])
+            } else {
+                distance(observed, &self.goals[goal])
+            };
+            if miss < best.1 {
+                best = (Some(index), miss);
+            }
+        }
+        best
+    }
+
+    fn ask_goal(&self, goal: usize, tries: u32, belief: &mut Belief, random: &mut ChaCha8Rng) -> Option<Vec<f64>> {
+        let (_, best) = self.best(goal, belief);
+        if best <= self.spec.tolerance || tries >= self.spec.max_tries {
+            return None;
+        }
+        let target = self.goals[goal].as_slice();
+        let starts = self.starts(target, random);
+        let need = (0.25 * self.spec.tolerance).max(0.02 * best);
+        let sure = Aim { goal: target, caution: if tries < 4 { 0.3 } else { 0.02 } };
+        let poses = self.search(&starts, sure, belief);
+        let nearest = poses.into_iter().map(|pose| (belief.score(&pose, sure), pose));
+        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, pose)| pose);
+        if let Some(pose) = nearest {
+            belief.predict(&pose);
+            if best - distance(&belief.mean, target) >= need {
+                return Some(pose);
+            }
+        }
+        let hopeful = Aim { goal: target, caution: -0.25 };
+        let mut hope = (f64::INFINITY, None);
+        for pose in self.search(&starts, hopeful, belief) {
+            let variance = belief.predict(&pose);
+            let value = distance(&belief.mean, target) - 0.5 * (target.len() as f64 * variance).sqrt();
+            if value < hope.0 {
+                hope = (value, Some(pose));
+            }
+        }
+        hope.1.filter(|_| hope.0 < best - need)
+    }
+
+    /// Uniform starts, and starts around the measured poses nearest to the goal.
+    fn starts(&self, target: &[f64], random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
+        let mut seen: Vec<(f64, &[f64])> = self
+            .earlier
+            .iter()
+            .chain(&self.log)
+            .filter_map(|t| Some((distance(t.observation.as_deref()?, target), t.joints.as_slice())))
+            .collect();
+        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let centres = seen.len().clamp(1, 3);
+        let mut starts = vec![self.space.home(); UNIFORM_STARTS + LOCAL_STARTS];
+        for (index, pose) in starts.iter_mut().enumerate() {
+            match seen.get(index % centres) {
+                Some((_, centre)) if index >= UNIFORM_STARTS => {
+                    self.space.near(centre, LOCAL_SPREAD, random, pose);
+                }
+                _ => self.space.uniform(random, pose),
+            }
+        }
+        starts
+    }
+
+    /// The best starts, refined; only admissible poses.
+    fn search(&self, starts: &[Vec<f64>], aim: Aim, belief: &mut Belief) -> Vec<Vec<f64>> {
+        let mut scored: Vec<(f64, usize)> =
+            starts.iter().enumerate().map(|(i, pose)| (belief.score(pose, aim), i)).collect();
+        scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut found = Vec::with_capacity(2 * REFINED);
+        for &(_, index) in scored.iter().filter(|s| self.is_admissible(&starts[s.1])).take(REFINED) {
+            let mut pose = starts[index].clone();
+            refine(&self.space, &mut pose, REFINE_STEPS, &mut |q, local| belief.score_with_slopes(q, aim, local));
+            if self.is_admissible(&pose) {
+                found.push(pose);
+            } else {
+                found.push(starts[index].clone());
+            }
+        }
+        found
+    }
+
+    /// `joints` no further from the last executed pose than a trial may step.
+    fn capped(&self, mut joints: Vec<f64>) -> Vec<f64> {
+        let Some(cap) = self.spec.max_step_deg.map(f64::to_radians) else { return joints };
+        let last = self.log.last().map_or_else(|| self.space.home(), |t| t.joints.clone());
+        let steps = joints.iter().zip(&last).zip(&self.space.axes);
+        let longest = steps.map(|((q, l), axis)| (q - l).abs() * axis.scale()).fold(0.0, f64::max);
+        if longest > cap {
+            let share = cap / longest;
+            joints.iter_mut().zip(&last).for_each(|(q, l)| *q = l + (*q - l) * share);
+        }
+        joints
+    }
+
+    /// The best own pose of each goal.
+    pub fn outcomes(&mut self) -> Vec<Outcome> {
+        let mut prior = self.prior.take();
+        let logs = [self.earlier.as_slice(), self.log.as_slice()];
+        let map = prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap);
+        let outcomes = Belief::fit(&self.space, logs, &self.goals, map, self.spec.noise).map(|mut belief| {
+            (0..self.goals.len())
+                .map(|goal| {
+                    let (trial, miss) = self.best(goal, &mut belief);
+                    Outcome { trial, distance: miss, reached: miss <= self.spec.tolerance }
+                })
+                .collect()
+        });
+        self.prior = prior;
+        let nothing = Outcome { trial: None, distance: f64::INFINITY, reached: false };
+        outcomes.unwrap_or_else(|| vec![nothing; self.goals.len()])
+    }
+}

@@ -1,0 +1,90 @@
+//! The joint space a method searches: limits, kinds and home; identification moves and step caps follow from it.
+
+use rand::{Rng, RngExt};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// One joint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Axis {
+    /// Lower limit, rad or m.
+    pub lower: f64,
+    /// Upper limit, rad or m.
+    pub upper: f64,
+    /// Where the joint starts, rad or m.
+    pub home: f64,
+    /// Whether a position is an angle.
+    pub revolute: bool,
+}
+
+impl Axis {
+    /// Radians per unit of this joint when distances are compared: 1 for angles; a whole stroke counts as pi.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        if self.revolute || self.upper <= self.lower { 1.0 } else { PI / (self.upper - self.lower) }
+    }
+}
+
+/// All joints, in gene order.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Space {
+    /// The d joints.
+    pub axes: Vec<Axis>,
+}
+
+impl Space {
+    /// Number of joints d.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// Whether there is no joint.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.axes.is_empty()
+    }
+
+    /// The starting pose, inside the limits.
+    #[must_use]
+    pub fn home(&self) -> Vec<f64> {
+        self.axes.iter().map(|a| a.home.clamp(a.lower, a.upper)).collect()
+    }
+
+    /// The `index`-th identification pose: home, then home with joint `index - 1` moved by `step` (rad, or the like
+    /// share of a stroke) towards the side with room, up to the limit.
+    #[must_use]
+    pub fn identification(&self, index: usize, step: f64) -> Option<Vec<f64>> {
+        let mut pose = self.home();
+        if index > self.len() {
+            return None;
+        }
+        if let Some(axis) = index.checked_sub(1).map(|j| self.axes[j]) {
+            let at = pose[index - 1];
+            let move_by = step / axis.scale();
+            let up = axis.upper - at >= move_by || axis.upper - at >= at - axis.lower;
+            pose[index - 1] = if up { (at + move_by).min(axis.upper) } else { (at - move_by).max(axis.lower) };
+        }
+        Some(pose)
+    }
+
+    /// A pose uniform in the limits.
+    pub fn uniform(&self, random: &mut impl Rng, pose: &mut [f64]) {
+        for (value, axis) in pose.iter_mut().zip(&self.axes) {
+            *value = axis.lower + (axis.upper - axis.lower) * random.random::<f64>();
+        }
+    }
+
+    /// `centre` moved by a Gaussian of standard deviation `spread` (rad or share of a stroke), into the limits.
+    pub fn near(&self, centre: &[f64], spread: f64, random: &mut impl Rng, pose: &mut [f64]) {
+        for ((value, axis), at) in pose.iter_mut().zip(&self.axes).zip(centre) {
+            *value = (at + spread / axis.scale() * gaussian(random)).clamp(axis.lower, axis.upper);
+        }
+    }
+}
+
+/// A standard normal deviate (Box-Muller).
+pub fn gaussian(random: &mut impl Rng) -> f64 {
+    let radius = (-2.0 * (1.0 - random.random::<f64>()).ln()).sqrt();
+    radius * (2.0 * PI * random.random::<f64>()).cos()
+}
