@@ -8,7 +8,7 @@
 //! C. Rasmussen, PILCO, ICML 2011; K. Chatzilygeroudis et al., Black-DROPS, IROS 2017; A. Cully et al., "Robots that
 //! can adapt like animals", Nature 521 (2015), DOI 10.1038/nature14422.
 
-use super::belief::{Aim, Belief, distance};
+use super::belief::{Aim, Belief, distance, squared_distance};
 use super::refine::refine;
 use super::space::Space;
 use super::{FeatureMap, Proposal, Trial};
@@ -41,11 +41,15 @@ pub struct ModelSpec {
     pub identification_deg: f64,
     /// Largest step of a joint from one trial to the next, degrees (likewise); none where the robot needs none.
     pub max_step_deg: Option<f64>,
+    /// lab
+    pub strategy: u32,
+    /// lab
+    pub caution: f64,
 }
 
 impl Default for ModelSpec {
     fn default() -> Self {
-        Self { tolerance: 30.0, noise: 0.0, max_tries: 15, identification_deg: 25.0, max_step_deg: None }
+        Self { tolerance: 30.0, noise: 0.0, max_tries: 15, identification_deg: 45.0, max_step_deg: None, strategy: 1, caution: 0.1 }
     }
 }
 
@@ -58,6 +62,23 @@ pub struct Outcome {
     pub distance: f64,
     /// Whether that is within the tolerance.
     pub reached: bool,
+}
+
+/// A goal that is still worth a trial.
+struct Open {
+    index: usize,
+    tries: u32,
+    /// B, the smallest distance measured so far.
+    best: f64,
+    /// The improvement a trial must promise.
+    need: f64,
+}
+
+/// A pose with what the model expects there.
+struct Start {
+    pose: Vec<f64>,
+    mean: Vec<f64>,
+    variance: f64,
 }
 
 /// A run of MODEL-IET.
@@ -139,7 +160,6 @@ impl ModelIet {
     fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> Proposal {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(self.log.len() as u64 + 1);
-        let first = self.log.last().map_or(0, |t| t.goal);
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         if self.log.iter().chain(&self.earlier).all(|t| t.observation.is_none()) {
             return self.first_with_prior(prior.as_deref_mut(), &mut random);
@@ -147,13 +167,26 @@ impl ModelIet {
         let Some(mut belief) = Belief::fit(&self.space, logs, &self.goals, prior, self.spec.noise) else {
             return Proposal::Finished;
         };
-        for goal in first..self.goals.len() {
-            let trials = self.log.iter().skip(identification);
-            let tries = trials.filter(|t| t.goal == goal).count() as u32;
-            if let Some(joints) = self.ask_goal(goal, tries, &mut belief, &mut random) {
-                let joints = self.capped(joints);
-                return Proposal::Execute { joints, goal };
+        let open = self.open_goals(identification, &mut belief);
+        let starts = self.shared_starts(&mut belief, &mut random);
+        let mut chosen: Option<(f64, Vec<f64>, usize)> = None;
+        for goal in &open {
+            let Some((rank, joints)) = self.sure_pose(goal, &open, &starts, &mut belief, &mut random) else { continue };
+            if chosen.as_ref().is_none_or(|c| rank < c.0) {
+                chosen = Some((rank, joints, goal.index));
             }
+            if self.spec.strategy == 0 { break; }
+        }
+        if chosen.is_none() {
+            for goal in &open {
+                if let Some(joints) = self.hopeful_pose(goal, &starts, &mut belief, &mut random) {
+                    chosen = Some((0.0, joints, goal.index));
+                    break;
+                }
+            }
+        }
+        if let Some((_, joints, goal)) = chosen {
+            return Proposal::Execute { joints: self.capped(joints), goal };
         }
         Proposal::Finished
     }
@@ -200,38 +233,84 @@ impl ModelIet {
         best
     }
 
-    fn ask_goal(&self, goal: usize, tries: u32, belief: &mut Belief, random: &mut ChaCha8Rng) -> Option<Vec<f64>> {
-        let (_, best) = self.best(goal, belief);
-        if best <= self.spec.tolerance || tries >= self.spec.max_tries {
-            return None;
-        }
-        let target = self.goals[goal].as_slice();
-        let starts = self.starts(target, random);
-        let need = (0.25 * self.spec.tolerance).max(0.02 * best);
-        let sure = Aim { goal: target, caution: if tries < 4 { 0.3 } else { 0.02 } };
-        let poses = self.search(&starts, sure, belief);
-        let nearest = poses.into_iter().map(|pose| (belief.score(&pose, sure), pose));
-        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, pose)| pose);
-        if let Some(pose) = nearest {
-            belief.predict(&pose);
-            if best - distance(&belief.mean, target) >= need {
-                return Some(pose);
+    /// The goals still worth a trial: not reached, tries left.
+    fn open_goals(&self, identification: usize, belief: &mut Belief) -> Vec<Open> {
+        let mut open = Vec::with_capacity(self.goals.len());
+        for index in 0..self.goals.len() {
+            let tries = self.log.iter().skip(identification).filter(|t| t.goal == index).count() as u32;
+            let (_, best) = self.best(index, belief);
+            if best > self.spec.tolerance && tries < self.spec.max_tries {
+                let need = (0.25 * self.spec.tolerance).max(0.02 * best);
+                open.push(Open { index, tries, best, need });
             }
         }
+        open
+    }
+
+    /// Uniform poses with what the model expects there: shared by all goals.
+    fn shared_starts(&self, belief: &mut Belief, random: &mut ChaCha8Rng) -> Vec<Start> {
+        let mut pose = self.space.home();
+        (0..UNIFORM_STARTS)
+            .map(|_| {
+                self.space.uniform(random, &mut pose);
+                let variance = belief.predict(&pose);
+                Start { pose: pose.clone(), mean: belief.mean.clone(), variance }
+            })
+            .collect()
+    }
+
+    /// The pose expected nearest to the goal among those the model is sure of, if it improves enough; with its rank.
+    fn sure_pose(
+        &self,
+        goal: &Open,
+        open: &[Open],
+        shared: &[Start],
+        belief: &mut Belief,
+        random: &mut ChaCha8Rng,
+    ) -> Option<(f64, Vec<f64>)> {
+        let target = self.goals[goal.index].as_slice();
+        let sure = Aim { goal: target, caution: if goal.tries < 4 { self.spec.caution } else { 0.02 } };
+        let poses = self.search(shared, sure, belief, random);
+        let nearest = poses.into_iter().map(|pose| (belief.score(&pose, sure), pose));
+        let (_, pose) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let variance = belief.predict(&pose);
+        let miss = distance(&belief.mean, target);
+        if goal.best - miss < goal.need {
+            return None;
+        }
+        let m = target.len() as f64;
+        let rank = match self.spec.strategy {
+            0 | 1 => (miss * miss + m * variance).sqrt(),
+            2 => -(miss * miss + m * variance).sqrt(),
+            3 => -(goal.best - (miss * miss + m * variance).sqrt()),
+            _ => -open.iter().map(|k| (k.best - (distance(&belief.mean, &self.goals[k.index]).powi(2) + m * variance).sqrt()).max(0.0)).sum::<f64>(),
+        };
+        Some((rank, pose))
+    }
+
+    /// The pose that, looked at optimistically, improves the goal enough.
+    fn hopeful_pose(
+        &self,
+        goal: &Open,
+        shared: &[Start],
+        belief: &mut Belief,
+        random: &mut ChaCha8Rng,
+    ) -> Option<Vec<f64>> {
+        let target = self.goals[goal.index].as_slice();
         let hopeful = Aim { goal: target, caution: -0.25 };
         let mut hope = (f64::INFINITY, None);
-        for pose in self.search(&starts, hopeful, belief) {
+        for pose in self.search(shared, hopeful, belief, random) {
             let variance = belief.predict(&pose);
             let value = distance(&belief.mean, target) - 0.5 * (target.len() as f64 * variance).sqrt();
             if value < hope.0 {
                 hope = (value, Some(pose));
             }
         }
-        hope.1.filter(|_| hope.0 < best - need)
+        hope.1.filter(|_| hope.0 < goal.best - goal.need)
     }
 
-    /// Uniform starts, and starts around the measured poses nearest to the goal.
-    fn starts(&self, target: &[f64], random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
+    /// Poses around the measured ones nearest to the target.
+    fn local_starts(&self, target: &[f64], random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
         let mut seen: Vec<(f64, &[f64])> = self
             .earlier
             .iter()
@@ -239,33 +318,30 @@ impl ModelIet {
             .filter_map(|t| Some((distance(t.observation.as_deref()?, target), t.joints.as_slice())))
             .collect();
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let centres = seen.len().clamp(1, 3);
-        let mut starts = vec![self.space.home(); UNIFORM_STARTS + LOCAL_STARTS];
-        for (index, pose) in starts.iter_mut().enumerate() {
-            match seen.get(index % centres) {
-                Some((_, centre)) if index >= UNIFORM_STARTS => {
-                    self.space.near(centre, LOCAL_SPREAD, random, pose);
-                }
-                _ => self.space.uniform(random, pose),
-            }
+        seen.truncate(3);
+        let mut starts = vec![self.space.home(); LOCAL_STARTS];
+        for (pose, (_, centre)) in starts.iter_mut().zip(seen.iter().cycle()) {
+            self.space.near(centre, LOCAL_SPREAD, random, pose);
         }
         starts
     }
 
     /// The best starts, refined; only admissible poses.
-    fn search(&self, starts: &[Vec<f64>], aim: Aim, belief: &mut Belief) -> Vec<Vec<f64>> {
-        let mut scored: Vec<(f64, usize)> =
-            starts.iter().enumerate().map(|(i, pose)| (belief.score(pose, aim), i)).collect();
+    fn search(&self, shared: &[Start], aim: Aim, belief: &mut Belief, random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
+        let local = self.local_starts(aim.goal, random);
+        let weight = aim.caution * aim.goal.len() as f64;
+        let known = shared.iter().map(|s| squared_distance(&s.mean, aim.goal) + weight * s.variance);
+        let mut scored: Vec<(f64, &[f64])> = known.zip(shared.iter().map(|s| s.pose.as_slice())).collect();
+        scored.extend(local.iter().map(|pose| (belief.score(pose, aim), pose.as_slice())));
         scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut found = Vec::with_capacity(2 * REFINED);
-        for &(_, index) in scored.iter().filter(|s| self.is_admissible(&starts[s.1])).take(REFINED) {
-            let mut pose = starts[index].clone();
+        let mut found = Vec::with_capacity(REFINED);
+        for &(_, start) in scored.iter().filter(|s| self.is_admissible(s.1)).take(REFINED) {
+            let mut pose = start.to_vec();
             refine(&self.space, &mut pose, REFINE_STEPS, &mut |q, local| belief.score_with_slopes(q, aim, local));
-            if self.is_admissible(&pose) {
-                found.push(pose);
-            } else {
-                found.push(starts[index].clone());
+            if !self.is_admissible(&pose) {
+                pose.copy_from_slice(start);
             }
+            found.push(pose);
         }
         found
     }
