@@ -9,6 +9,7 @@
 
 mod chain;
 mod check;
+mod distort;
 mod error;
 mod kinematics;
 mod model;

@@ -8,10 +8,14 @@
 //! - No kinematics is needed: joints in, features out, limits known. A simulator is a prior, not a requirement.
 
 mod belief;
+pub mod cover;
 pub mod kernel;
 pub mod model;
+pub mod particle;
 pub mod process;
 pub mod refine;
+pub mod search;
+pub mod sobol;
 pub mod space;
 
 pub use model::{ModelIet, ModelSpec};

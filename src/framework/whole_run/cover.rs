@@ -1,0 +1,97 @@
+//! The bookkeeping of effects that accumulate (a share of a surface): what each trial gained, what was accepted.
+//!
+//! A gain is counted in steps of the action: the smallest rise between goals is 1. Where the world can be put back, a
+//! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
+//! trial stays. The goal pointer is the first goal above what is observed.
+
+use super::{Proposal, Trial};
+use serde::{Deserialize, Serialize};
+
+/// How a run over an accumulating effect ends and whether trials can be undone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CoverSpec {
+    /// Whether the world is put back between trials.
+    pub resets: bool,
+    /// The run gives up after this many trials.
+    pub max_evaluations: u32,
+}
+
+impl Default for CoverSpec {
+    fn default() -> Self {
+        Self { resets: true, max_evaluations: 400 }
+    }
+}
+
+/// The log of a run with what it amounts to.
+#[derive(Debug, Clone)]
+pub(super) struct Ledger {
+    pub spec: CoverSpec,
+    goals: Vec<f64>,
+    step: f64,
+    pub log: Vec<Trial>,
+    /// Indices of the accepted trials, in order.
+    pub accepted: Vec<usize>,
+    /// What the world shows after the accepted trials, features' unit.
+    level: f64,
+    straight_overshoots: u32,
+}
+
+/// What a trial amounted to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Verdict {
+    /// Steps gained over the accepted trials; none when the observation was lost.
+    pub gain: Option<f64>,
+    pub accepted: bool,
+}
+
+impl Ledger {
+    pub fn new(spec: CoverSpec, goals: &[Vec<f64>]) -> Self {
+        let goals: Vec<f64> = goals.iter().map(|g| g[0]).collect();
+        let rises = goals.windows(2).map(|w| w[1] - w[0]).filter(|r| *r > 1e-9);
+        let step = rises.fold(f64::INFINITY, f64::min);
+        let step = if step.is_finite() { step } else { 1.0 };
+        let level = goals.first().copied().unwrap_or(0.0).min(0.0);
+        Self { spec, goals, step, log: Vec::new(), accepted: Vec::new(), level, straight_overshoots: 0 }
+    }
+
+    /// The first goal above what the world shows; none when all are reached.
+    pub fn goal(&self) -> Option<usize> {
+        self.goals.iter().position(|g| *g > self.level + 1e-6 * self.step)
+    }
+
+    pub fn is_over(&self) -> bool {
+        self.goal().is_none() || self.log.len() >= self.spec.max_evaluations as usize
+    }
+
+    pub fn propose(&self, joints: Vec<f64>) -> Proposal {
+        self.goal().map_or(Proposal::Finished, |goal| Proposal::Execute { joints, goal })
+    }
+
+    pub fn tell(&mut self, trial: Trial) -> Verdict {
+        let seen = trial.observation.as_ref().map(|o| o[0]);
+        let gain = seen.map(|s| (s - self.level) / self.step);
+        let one = gain.is_some_and(|g| (g - 1.0).abs() < 0.5);
+        let more = gain.is_some_and(|g| g >= 1.5);
+        let accepted = !self.spec.resets || one || (more && self.straight_overshoots >= 2);
+        if accepted {
+            self.accepted.push(self.log.len());
+            self.level = seen.unwrap_or(self.level);
+        }
+        self.straight_overshoots = if more && !accepted { self.straight_overshoots + 1 } else { 0 };
+        self.log.push(trial);
+        Verdict { gain, accepted }
+    }
+
+    /// Poses to execute, in order, before the next trial, where the world was put back.
+    pub fn prefix(&self) -> Vec<Vec<f64>> {
+        if !self.spec.resets {
+            return Vec::new();
+        }
+        self.accepted.iter().map(|&i| self.log[i].joints.clone()).collect()
+    }
+
+    pub fn level(&self) -> f64 {
+        self.level
+    }
+}

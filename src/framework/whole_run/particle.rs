@@ -1,0 +1,255 @@
+//! PARTICLE-IET: an accumulating effect with a simulator whose parameters are uncertain.
+//!
+//! Each particle is one draw of the simulator's parameters; it says which cells each pose covers and which cells the
+//! accepted trials have changed (S_k). The next trial is the unused pose that most particles, by weight, expect to
+//! gain exactly one cell. A trial reweighs: `log w_k -= 1.5 | |cover_k(q) minus S_k| - gain |`.
+//! Where no pose convinces half of the weight, particles are resampled and jittered, and the log is replayed.
+//!
+//! Source: A. Doucet, N. de Freitas, N. Gordon, Sequential Monte Carlo Methods in Practice, Springer 2001.
+
+use super::cover::{CoverSpec, Ledger};
+use super::sobol;
+use super::space::{Space, gaussian};
+use super::{Proposal, Trial};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+const PARTICLES: usize = 80;
+const POSES: usize = 1024;
+/// Of a renewed pool, poses around the liked ones; their centres; their spread, rad.
+const LOCAL_POSES: usize = 256;
+const CENTRES: usize = 16;
+const LOCAL_SPREAD: f64 = 0.1;
+const SHARPNESS: f64 = 1.5;
+/// Below this probability of gaining one cell the particles are resampled.
+const CONVINCING: f64 = 0.5;
+/// Below this a random unused pose is tried.
+const HOPELESS: f64 = 0.02;
+const RESAMPLINGS: u32 = 2;
+/// Jitter of a resampled particle, in standard deviations of the prior.
+const JITTER: f64 = 0.25;
+
+/// A simulator with uncertain parameters.
+pub trait Simulator: Send {
+    /// Standard deviations of the parameters about 0.
+    fn spreads(&self) -> Vec<f64>;
+
+    /// Number of cells.
+    fn cells(&self) -> usize;
+
+    /// For each pose the cells it covers, 64 a word, if the parameters were `parameters`.
+    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<Vec<u64>>;
+}
+
+struct Particle {
+    parameters: Vec<f64>,
+    log_weight: f64,
+    covers: Vec<Vec<u64>>,
+    painted: Vec<u64>,
+}
+
+/// A run of PARTICLE-IET.
+pub struct ParticleIet {
+    ledger: Ledger,
+    seed: u64,
+    space: Space,
+    simulator: Box<dyn Simulator>,
+    poses: Vec<Vec<f64>>,
+    used: Vec<bool>,
+    particles: Vec<Particle>,
+    verdicts: Vec<(Option<f64>, bool)>,
+    next: Option<usize>,
+}
+
+fn fresh(cover: &[u64], painted: &[u64]) -> u32 {
+    cover.iter().zip(painted).map(|(c, p)| (c & !p).count_ones()).sum()
+}
+
+impl ParticleIet {
+    /// A run for `goals` over `space` with `simulator` as the prior.
+    #[must_use]
+    pub fn new(spec: CoverSpec, space: Space, goals: &[Vec<f64>], simulator: Box<dyn Simulator>, seed: u64) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let poses = sobol::poses(&space, POSES, &mut random);
+        let spreads = simulator.spreads();
+        let words = simulator.cells().div_ceil(64);
+        let particles = (0..PARTICLES)
+            .map(|_| {
+                let parameters: Vec<f64> = spreads.iter().map(|s| s * gaussian(&mut random)).collect();
+                let covers = simulator.covers(&parameters, &poses);
+                Particle { parameters, log_weight: 0.0, covers, painted: vec![0; words] }
+            })
+            .collect();
+        let mut run = Self {
+            ledger: Ledger::new(spec, goals),
+            seed,
+            space,
+            simulator,
+            used: vec![false; poses.len()],
+            poses,
+            particles,
+            verdicts: Vec::new(),
+            next: None,
+        };
+        run.decide();
+        run
+    }
+
+    fn weights(&self) -> Vec<f64> {
+        let top = self.particles.iter().map(|p| p.log_weight).fold(f64::NEG_INFINITY, f64::max);
+        let raw: Vec<f64> = self.particles.iter().map(|p| (p.log_weight - top).exp()).collect();
+        let sum: f64 = raw.iter().sum();
+        raw.into_iter().map(|w| w / sum).collect()
+    }
+
+    /// Each unused pose with the probability that it gains exactly one cell.
+    fn chances(&self) -> Vec<(f64, usize)> {
+        let weights = self.weights();
+        let unused = (0..self.poses.len()).filter(|&z| !self.used[z]);
+        unused
+            .map(|z| {
+                let agree = self.particles.iter().zip(&weights).filter(|(p, _)| fresh(&p.covers[z], &p.painted) == 1);
+                (agree.map(|(_, w)| w).sum(), z)
+            })
+            .collect()
+    }
+
+    /// The likeliest of them, the first on ties.
+    fn best(&self) -> Option<(f64, usize)> {
+        self.chances().into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best })
+    }
+
+    fn decide(&mut self) {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        random.set_stream(self.ledger.log.len() as u64 + 1);
+        let mut best = self.best();
+        for _ in 0..RESAMPLINGS {
+            if best.is_none_or(|b| b.0 >= CONVINCING) || self.ledger.log.is_empty() {
+                break;
+            }
+            self.resample(&mut random);
+            best = self.best();
+        }
+        self.next = match best {
+            Some((chance, z)) if chance >= HOPELESS => Some(z),
+            Some(_) => {
+                let unused: Vec<usize> = (0..self.poses.len()).filter(|&z| !self.used[z]).collect();
+                Some(unused[random.random_range(0..unused.len())])
+            }
+            None => None,
+        };
+    }
+
+    fn resample(&mut self, random: &mut ChaCha8Rng) {
+        let weights = self.weights();
+        let spreads = self.simulator.spreads();
+        let start: f64 = random.random::<f64>();
+        let (mut sum, mut index) = (weights[0], 0);
+        let drawn: Vec<Vec<f64>> = (0..PARTICLES)
+            .map(|k| {
+                let at = (k as f64 + start) / PARTICLES as f64;
+                while sum < at && index + 1 < PARTICLES {
+                    index += 1;
+                    sum += weights[index];
+                }
+                let parent = &self.particles[index].parameters;
+                parent.iter().zip(&spreads).map(|(p, s)| p + JITTER * s * gaussian(random)).collect()
+            })
+            .collect();
+        self.renew_poses(random);
+        let tried: Vec<Vec<f64>> = self.ledger.log.iter().map(|t| t.joints.clone()).collect();
+        let words = self.simulator.cells().div_ceil(64);
+        for (particle, parameters) in self.particles.iter_mut().zip(drawn) {
+            let replay = self.simulator.covers(&parameters, &tried);
+            particle.covers = self.simulator.covers(&parameters, &self.poses);
+            particle.parameters = parameters;
+            particle.painted = vec![0; words];
+            particle.log_weight = 0.0;
+            for (cover, &(gain, accepted)) in replay.iter().zip(&self.verdicts) {
+                particle.learn(cover, gain, accepted);
+            }
+        }
+    }
+
+    /// A new pool: an even cover with another shift, and poses around those the old particles liked best.
+    fn renew_poses(&mut self, random: &mut ChaCha8Rng) {
+        let mut liked = self.chances();
+        liked.sort_by(|a, b| b.0.total_cmp(&a.0));
+        liked.truncate(CENTRES);
+        let mut pool = sobol::poses(&self.space, POSES - LOCAL_POSES, random);
+        let mut pose = self.space.home();
+        for (_, centre) in liked.iter().cycle().take(LOCAL_POSES) {
+            self.space.near(&self.poses[*centre], LOCAL_SPREAD, random, &mut pose);
+            pool.push(pose.clone());
+        }
+        self.used = vec![false; pool.len()];
+        self.poses = pool;
+    }
+
+    /// The next pose: a function of what was told alone.
+    #[must_use]
+    pub fn ask(&self) -> Proposal {
+        match self.next {
+            Some(z) if !self.ledger.is_over() => self.ledger.propose(self.poses[z].clone()),
+            _ => Proposal::Finished,
+        }
+    }
+
+    /// Learns from a trial and decides on the next one.
+    pub fn tell(&mut self, trial: Trial) {
+        let tried = [trial.joints.clone()];
+        let verdict = self.ledger.tell(trial);
+        if let Some(z) = self.poses.iter().position(|p| *p == tried[0]) {
+            self.used[z] = true;
+        }
+        self.verdicts.push((verdict.gain, verdict.accepted));
+        for particle in &mut self.particles {
+            let cover = self.simulator.covers(&particle.parameters, &tried);
+            particle.learn(&cover[0], verdict.gain, verdict.accepted);
+        }
+        if !self.ledger.is_over() {
+            self.decide();
+        }
+    }
+
+    /// The joints searched.
+    #[must_use]
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// The trials so far.
+    #[must_use]
+    pub fn log(&self) -> &[Trial] {
+        &self.ledger.log
+    }
+
+    /// Indices of the accepted trials.
+    #[must_use]
+    pub fn accepted(&self) -> &[usize] {
+        &self.ledger.accepted
+    }
+
+    /// What the world shows after the accepted trials.
+    #[must_use]
+    pub fn level(&self) -> f64 {
+        self.ledger.level()
+    }
+
+    /// Poses to execute before the next trial where the world was put back.
+    #[must_use]
+    pub fn prefix(&self) -> Vec<Vec<f64>> {
+        self.ledger.prefix()
+    }
+}
+
+impl Particle {
+    fn learn(&mut self, cover: &[u64], gain: Option<f64>, accepted: bool) {
+        if let Some(gain) = gain {
+            self.log_weight -= SHARPNESS * (f64::from(fresh(cover, &self.painted)) - gain).abs();
+        }
+        if accepted {
+            self.painted.iter_mut().zip(cover).for_each(|(p, c)| *p |= c);
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! SEARCH-IET: an accumulating effect with nothing known, by search theory.
+//!
+//! What has not been affected cannot lie inside the capture ball of a past trial: each trial thins the survival
+//! `surv(x)` of the poses around it, gains raise the expectation of the poses near them, and the next trial is the
+//! unused pose with the largest expected gain: `sum_x B_z surv num/den / sum_x B_z`.
+//!
+//! Symbols: Sobol poses x, z; distance |z - x| in degrees; ball `B_z(x) = exp(-(|z-x|/r)^4)`; `k = exp(-d^2 / 2 l^2)`.
+//! Source: L. Stone, Theory of Optimal Search, Academic Press 1975.
+
+use super::cover::{CoverSpec, Ledger};
+use super::sobol;
+use super::space::Space;
+use super::{Proposal, Trial};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+const POSES: usize = 2048;
+const RADIUS_DEG: f64 = 12.0;
+const LENGTH_DEG: f64 = 25.0;
+const PRIOR_HITS: f64 = 0.25;
+const PRIOR_TRIALS: f64 = 1.0;
+/// A gain that was not kept leaves this share of its pose's survival.
+const REFUSED: f64 = 0.2;
+const MISSES: u32 = 30;
+const SHRINK: f64 = 0.85;
+
+/// A run of SEARCH-IET.
+pub struct SearchIet {
+    ledger: Ledger,
+    poses: Vec<Vec<f64>>,
+    scale: Vec<f64>,
+    used: Vec<bool>,
+    surv: Vec<f64>,
+    num: Vec<f64>,
+    den: Vec<f64>,
+    radius: f64,
+    misses: u32,
+    verdicts: Vec<(usize, bool, bool)>,
+    /// Per pose the poses in its ball, with B.
+    near: Vec<Vec<(u32, f64)>>,
+}
+
+impl SearchIet {
+    /// A run for `goals` (n rows, the share in the first column) over `space`.
+    #[must_use]
+    pub fn new(spec: CoverSpec, space: &Space, goals: &[Vec<f64>], seed: u64) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let poses = sobol::poses(space, POSES, &mut random);
+        let mut run = Self {
+            ledger: Ledger::new(spec, goals),
+            scale: space.axes.iter().map(|a| a.scale().to_degrees()).collect(),
+            poses,
+            used: vec![false; POSES],
+            surv: vec![1.0; POSES],
+            num: vec![PRIOR_HITS; POSES],
+            den: vec![PRIOR_TRIALS; POSES],
+            radius: RADIUS_DEG,
+            misses: 0,
+            verdicts: Vec::new(),
+            near: Vec::new(),
+        };
+        run.find_near();
+        run
+    }
+
+    fn find_near(&mut self) {
+        let ball = |z: &Vec<f64>, x: &Vec<f64>| self.ball(self.squared(z, x));
+        let row = |z: &Vec<f64>| {
+            let all = self.poses.iter().enumerate().map(|(x, pose)| (x as u32, ball(z, pose)));
+            all.filter(|(_, b)| *b > 0.0).collect::<Vec<_>>()
+        };
+        self.near = self.poses.iter().map(row).collect();
+    }
+
+    fn squared(&self, a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(&self.scale).map(|((x, y), s)| ((x - y) * s).powi(2)).sum()
+    }
+
+    fn ball(&self, squared: f64) -> f64 {
+        let ratio = squared / (self.radius * self.radius);
+        if ratio > 3.0 { 0.0 } else { (-ratio * ratio).exp() }
+    }
+
+    /// The next pose: a function of what was told alone.
+    #[must_use]
+    pub fn ask(&self) -> Proposal {
+        if self.ledger.is_over() {
+            return Proposal::Finished;
+        }
+        let expected: Vec<f64> = (0..POSES).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
+        let mut best = (f64::NEG_INFINITY, None);
+        for z in (0..POSES).filter(|&z| !self.used[z]) {
+            let (mut sum, mut weight) = (0.0, 0.0);
+            for &(x, b) in &self.near[z] {
+                sum += b * expected[x as usize];
+                weight += b;
+            }
+            if sum / weight > best.0 {
+                best = (sum / weight, Some(z));
+            }
+        }
+        best.1.map_or(Proposal::Finished, |z| self.ledger.propose(self.poses[z].clone()))
+    }
+
+    /// Learns from a trial.
+    pub fn tell(&mut self, trial: Trial) {
+        let joints = trial.joints.clone();
+        let verdict = self.ledger.tell(trial);
+        let squared: Vec<f64> = self.poses.iter().map(|x| self.squared(&joints, x)).collect();
+        let nearest = (0..POSES).min_by(|&a, &b| squared[a].total_cmp(&squared[b])).unwrap_or(0);
+        self.used[nearest] = true;
+        let Some(gain) = verdict.gain else { return };
+        let ball: Vec<f64> = squared.iter().map(|&s| self.ball(s)).collect();
+        let total: f64 = ball.iter().sum();
+        let available = ball.iter().zip(&self.surv).map(|(b, s)| b * s).sum::<f64>() / total.max(f64::MIN_POSITIVE);
+        for (i, s) in squared.iter().enumerate() {
+            let k = (-s / (2.0 * LENGTH_DEG * LENGTH_DEG)).exp();
+            self.num[i] += gain.max(0.0) * k;
+            self.den[i] += available * k;
+        }
+        let hit = gain > 0.5;
+        self.verdicts.push((nearest, hit, verdict.accepted));
+        self.thin(nearest, &ball, hit, verdict.accepted);
+        self.misses = if hit { 0 } else { self.misses + 1 };
+        if self.misses >= MISSES {
+            self.misses = 0;
+            self.radius *= SHRINK;
+            self.rebuild();
+        }
+    }
+
+    fn thin(&mut self, nearest: usize, ball: &[f64], hit: bool, accepted: bool) {
+        if hit && !accepted {
+            self.surv[nearest] *= REFUSED;
+        } else {
+            self.surv.iter_mut().zip(ball).for_each(|(s, b)| *s *= 1.0 - b);
+        }
+    }
+
+    fn rebuild(&mut self) {
+        self.find_near();
+        self.surv.fill(1.0);
+        for (nearest, hit, accepted) in self.verdicts.clone() {
+            let centre = self.poses[nearest].clone();
+            let ball: Vec<f64> = self.poses.iter().map(|x| self.ball(self.squared(&centre, x))).collect();
+            self.thin(nearest, &ball, hit, accepted);
+        }
+    }
+
+    /// The trials so far.
+    #[must_use]
+    pub fn log(&self) -> &[Trial] {
+        &self.ledger.log
+    }
+
+    /// Indices of the accepted trials.
+    #[must_use]
+    pub fn accepted(&self) -> &[usize] {
+        &self.ledger.accepted
+    }
+
+    /// What the world shows after the accepted trials.
+    #[must_use]
+    pub fn level(&self) -> f64 {
+        self.ledger.level()
+    }
+
+    /// Poses to execute before the next trial where the world was put back.
+    #[must_use]
+    pub fn prefix(&self) -> Vec<Vec<f64>> {
+        self.ledger.prefix()
+    }
+}

@@ -1,0 +1,101 @@
+//! Sobol's low-discrepancy sequence with a random shift: even cover of the joint box by few poses.
+//!
+//! Direction numbers: S. Joe, F. Kuo, SIAM J. Sci. Comput. 30 (2008), DOI 10.1137/070709359, first ten dimensions;
+//! further dimensions are filled by independent uniform numbers.
+
+use super::space::Space;
+use rand::{Rng, RngExt};
+
+/// (degree, coefficients, initial direction numbers) of dimensions 2 to 10.
+const PRIMITIVE: [(u32, u32, &[u32]); 9] = [
+    (1, 0, &[1]),
+    (2, 1, &[1, 3]),
+    (3, 1, &[1, 3, 1]),
+    (3, 2, &[1, 1, 1]),
+    (4, 1, &[1, 1, 3, 3]),
+    (4, 4, &[1, 3, 5, 13]),
+    (5, 2, &[1, 1, 5, 5, 17]),
+    (5, 4, &[1, 1, 5, 5, 5]),
+    (5, 7, &[1, 1, 7, 11, 19]),
+];
+const BITS: u32 = 32;
+
+fn directions(dimension: usize) -> Option<[u32; 32]> {
+    let mut v = [0_u32; 32];
+    if dimension == 0 {
+        for (bit, value) in v.iter_mut().enumerate() {
+            *value = 1 << (BITS - 1 - bit as u32);
+        }
+        return Some(v);
+    }
+    let &(degree, coefficients, initial) = PRIMITIVE.get(dimension - 1)?;
+    let s = degree as usize;
+    for (bit, &m) in initial.iter().enumerate() {
+        v[bit] = m << (BITS - 1 - bit as u32);
+    }
+    for bit in s..32 {
+        v[bit] = v[bit - s] ^ (v[bit - s] >> degree);
+        for k in 1..s {
+            if coefficients >> (s - 1 - k) & 1 == 1 {
+                v[bit] ^= v[bit - k];
+            }
+        }
+    }
+    Some(v)
+}
+
+/// `count` poses in the limits, shifted by one random offset per joint.
+pub fn poses(space: &Space, count: usize, random: &mut impl Rng) -> Vec<Vec<f64>> {
+    let tables: Vec<Option<[u32; 32]>> = (0..space.len()).map(directions).collect();
+    let shifts: Vec<f64> = space.axes.iter().map(|_| random.random::<f64>()).collect();
+    let mut state = vec![0_u32; space.len()];
+    (1..=count)
+        .map(|index| {
+            let bit = (index - 1).trailing_ones() as usize;
+            let axes = space.axes.iter().zip(&tables).zip(&mut state).zip(&shifts);
+            axes.map(|(((axis, table), x), shift)| {
+                let unit = if let Some(v) = table {
+                    *x ^= v[bit.min(31)];
+                    (f64::from(*x) / 2.0_f64.powi(32) + shift).fract()
+                } else {
+                    random.random::<f64>()
+                };
+                axis.lower + (axis.upper - axis.lower) * unit
+            })
+            .collect()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::space::{Axis, Space};
+    use super::{directions, poses};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+
+    #[test]
+    fn every_dyadic_interval_of_each_joint_is_hit_once() {
+        for dimension in 0..10 {
+            let v = directions(dimension).unwrap();
+            let mut seen = [false; 64];
+            let mut x = 0_u32;
+            seen[0] = true;
+            for index in 0..63_usize {
+                x ^= v[index.trailing_ones() as usize];
+                let bin = (x >> 26) as usize;
+                assert!(!seen[bin], "dimension {dimension}, point {index}");
+                seen[bin] = true;
+            }
+        }
+    }
+
+    #[test]
+    fn poses_stay_inside_the_limits_in_more_joints_than_the_table_holds() {
+        let axis = Axis { lower: -1.0, upper: 2.0, home: 0.0, revolute: true };
+        let space = Space { axes: vec![axis; 12] };
+        let found = poses(&space, 100, &mut ChaCha8Rng::seed_from_u64(1));
+        assert_eq!(found.len(), 100);
+        assert!(found.iter().flatten().all(|q| (-1.0..=2.0).contains(q)));
+    }
+}
