@@ -4,7 +4,6 @@ mod output;
 mod problem;
 
 use crate::framework::execution::{Iet, Problem, RunResult, simulate};
-use crate::framework::world;
 use anyhow::Context as _;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
@@ -68,11 +67,11 @@ fn search(problem: &Problem, seeds: &[u64], threads: Option<u16>) -> anyhow::Res
 
 fn one(problem: &Problem, seed: u64, bar: &ProgressBar) -> anyhow::Result<RunResult> {
     let mut iet = Iet::new(problem, seed)?;
-    let mut world = world::build(&problem.world, iet.chain())?;
+    let mut world = iet.world()?;
     let mut goals_done = 0;
     while !iet.is_finished() {
         simulate(&mut iet, world.as_mut(), SLICE).with_context(|| format!("seed {seed}"))?;
-        let done = iet.prefix().len();
+        let done = iet.progress().results.len();
         bar.inc((done - goals_done) as u64);
         goals_done = done;
     }

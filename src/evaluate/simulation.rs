@@ -28,7 +28,7 @@ impl Simulation {
     }
 
     fn with(problem: &Problem, iet: Iet) -> Result<Self, ProblemError> {
-        let world = world::build(&problem.world, iet.chain())?;
+        let world = iet.world()?;
         Ok(Self { iet, world })
     }
 

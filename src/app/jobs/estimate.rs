@@ -5,7 +5,6 @@ use super::{CostEstimate, Work};
 use crate::app::ports::Clock;
 use crate::app::{AppError, chain_text};
 use crate::framework::execution::{Iet, Problem, simulate};
-use crate::framework::world;
 use std::time::Duration;
 
 /// Evaluations of a trial: enough for most problems to end.
@@ -81,7 +80,7 @@ fn try_out(problem: &Problem, seed: u64, time: Duration, clock: &dyn Clock) -> R
     let wrong =
         |error: &(dyn std::error::Error + 'static)| AppError::field("/execution", "invalid_problem", chain_text(error));
     let mut iet = Iet::new(problem, seed).map_err(|error| wrong(&error))?;
-    let mut place = world::build(&problem.world, iet.chain()).map_err(|error| wrong(&error))?;
+    let mut place = iet.world().map_err(|error| wrong(&error))?;
     let started = clock.elapsed();
     let elapsed = || clock.elapsed().saturating_sub(started);
     let mut progress = iet.progress();

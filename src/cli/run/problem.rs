@@ -7,6 +7,8 @@ use crate::framework::optimizer::{MethodSpec, SstSpec};
 use crate::framework::preset::{self, Preset};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;
+use crate::framework::whole_run::Prior;
+use crate::framework::world::{RealitySpec, WorldSpec};
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
@@ -30,6 +32,16 @@ pub(super) struct ProblemArguments {
     /// A goal ends after this many evaluations.
     #[arg(long, value_name = "EVALUATIONS")]
     max_evaluations_per_goal: Option<u64>,
+    /// What method model believes before its first trial; with a simulator the real world is simulated unlike it: links
+    /// 5 % and base 20 mm off, drawn by the seed.
+    #[arg(long, value_enum)]
+    prior: Option<PriorArgument>,
+    /// The real world is simulated with a sensor noise of 2 mm and a joint noise of 0.1 degrees, and the method is told.
+    #[arg(long)]
+    noise: bool,
+    /// A surface cannot be put back between trials.
+    #[arg(long)]
+    no_reset: bool,
     /// How discrepancies are measured.
     #[arg(long, value_enum)]
     metric: Option<Metric>,
@@ -64,6 +76,39 @@ pub(super) struct ProblemArguments {
     read: ReadArguments,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum PriorArgument {
+    /// Nothing is known.
+    None,
+    /// The robot and world as described.
+    Simulator,
+}
+
+/// Makes the simulated real world unlike the description, as `--prior` and `--noise` say.
+fn unlike_the_description(problem: &mut Problem, arguments: &ProblemArguments) {
+    let mut reality = problem.execution.reality.take().unwrap_or_default();
+    let simulator = arguments.prior == Some(PriorArgument::Simulator);
+    if simulator {
+        reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..reality };
+    }
+    let per_mm = match &problem.world {
+        WorldSpec::ToolPosition(tool) => Some(if tool.unit == "m" { 1e-3 } else { 1.0 }),
+        WorldSpec::Coverage(_) => None,
+    };
+    if arguments.noise {
+        reality.joint_noise_deg = 0.1;
+        reality.sensor_noise = per_mm.map_or(0.0, |mm| 2.0 * mm);
+    }
+    if let MethodSpec::Model(model) = &mut problem.execution.method {
+        model.prior = if simulator { Prior::Simulator } else { Prior::None };
+        if arguments.noise {
+            // sensor, and what 0.1 degrees in a few joints do half a metre away
+            model.noise = per_mm.map_or(0.0, |mm| 2.5 * mm);
+        }
+    }
+    problem.execution.reality = Some(reality);
+}
+
 fn joint_value(argument: &str) -> Result<(String, f64), String> {
     let help = "give JOINT=VALUE in rad or m, for example wrist_yaw=-0.785";
     let (joint, value) = argument.split_once('=').ok_or(help)?;
@@ -76,6 +121,9 @@ pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
         Some(name) => read_preset(name)?,
         None => from_demonstrations(arguments)?,
     };
+    if let (WorldSpec::Coverage(coverage), true) = (&mut named.problem.world, arguments.no_reset) {
+        coverage.resets = false;
+    }
     if let Some(method) = &arguments.method
         && !named.select_method(method)
     {
@@ -86,6 +134,9 @@ pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
     execution.target_discrepancy = arguments.target_discrepancy.or(execution.target_discrepancy);
     execution.max_evaluations_per_goal = arguments.max_evaluations_per_goal.or(execution.max_evaluations_per_goal);
     execution.metric = arguments.metric.unwrap_or(execution.metric);
+    if arguments.prior.is_some() || arguments.noise {
+        unlike_the_description(&mut named.problem, arguments);
+    }
     Ok(named)
 }
 

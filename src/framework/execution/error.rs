@@ -41,6 +41,14 @@ pub enum ProblemError {
         /// Unit of the world.
         world_unit: String,
     },
+    /// A method that does not fit the world.
+    #[error("method {method} needs {expected}")]
+    Method {
+        /// Method name.
+        method: &'static str,
+        /// What it needs.
+        expected: &'static str,
+    },
     /// A limit or threshold out of its range.
     #[error("{field} is {value}: {expected}")]
     Value {

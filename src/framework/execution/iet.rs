@@ -6,11 +6,13 @@
 //!
 //! # Invariants
 //! - Result bits depend on problem and seed only: not on batch sizes, saves and resumes, or threads.
-//! - `optimizer` is present exactly while a goal is being searched.
+//! - `optimizer` is present exactly while a goal is being searched by a method of one goal; a method that owns the
+//!   whole run stands in `owner`, names one pose at a time, and its results appear together at the end.
 
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
 use super::observations::Observations;
+use super::owner::Owner;
 use super::result::{GoalResult, Progress, RunResult, TracePoint, digest, record};
 use super::setup::Setup;
 use super::spec::Problem;
@@ -18,6 +20,8 @@ use super::state::{GoalState, IetState, STATE_VERSION};
 use crate::framework::constraint::Proposal;
 use crate::framework::optimizer::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
 use crate::framework::robot::Chain;
+use crate::framework::whole_run::Proposal as Next;
+use crate::framework::world::{self, World};
 
 /// The candidate by which a winner that was never executed is executed.
 const CONFIRMATION: u64 = u64::MAX;
@@ -57,6 +61,8 @@ pub struct Iet {
     evaluations: u64,
     /// The m features of the goals, picked out of an observation.
     seen: Vec<f64>,
+    /// The method that owns the run, where one does; `optimizer` is absent then.
+    owner: Option<Owner>,
 }
 
 impl Iet {
@@ -66,7 +72,10 @@ impl Iet {
     /// [`ProblemError`] if robot, world, goals and method do not fit together.
     pub fn new(problem: &Problem, seed: u64) -> Result<Self, ProblemError> {
         let mut iet = Self::bare(Setup::new(problem)?, seed);
-        iet.start_goal()?;
+        iet.owner = Owner::start(&iet.setup, seed, &[])?;
+        if iet.owner.is_none() {
+            iet.start_goal()?;
+        }
         Ok(iet)
     }
 
@@ -76,8 +85,10 @@ impl Iet {
     /// [`ProblemError`] if the state does not belong to the problem.
     pub fn resume(problem: &Problem, state: IetState) -> Result<Self, ProblemError> {
         let setup = Setup::new(problem)?;
-        state.check(setup.goals.len(), setup.chain.len(), setup.goals.features().len())?;
+        let owner = Owner::start(&setup, state.seed, &state.log)?;
+        state.check(owner.is_some(), setup.goals.len(), setup.chain.len(), setup.goals.features().len())?;
         let mut iet = Self::bare(setup, state.seed);
+        iet.owner = owner;
         for result in &state.results {
             iet.discrepancy.append(&result.observation);
         }
@@ -101,6 +112,7 @@ impl Iet {
             results: Vec::with_capacity(setup.goals.len()),
             evaluations: 0,
             seen: vec![0.0; setup.goals.features().len()],
+            owner: None,
             setup,
         }
     }
@@ -116,6 +128,7 @@ impl Iet {
             goal: self.goal.clone(),
             painted: self.painted,
             optimizer: self.optimizer.as_ref().map(|o| o.state()),
+            log: self.owner.as_ref().map_or_else(Vec::new, |o| o.log().to_vec()),
         }
     }
 
@@ -131,10 +144,24 @@ impl Iet {
         self.seed
     }
 
-    /// U_1..U_j-1: what must be executed, in order, before each candidate.
-    #[must_use]
-    pub fn prefix(&self) -> impl ExactSizeIterator<Item = &[f64]> {
-        self.results.iter().map(|r| r.joints.as_slice())
+    /// The simulated world of this run: as described, or as far off as `reality` says.
+    ///
+    /// # Errors
+    /// [`ProblemError::World`], though a run that could be made has a world.
+    pub fn world(&self) -> Result<Box<dyn World>, ProblemError> {
+        let (spec, chain) = (&self.setup.world, &self.setup.chain);
+        Ok(match &self.setup.spec.reality {
+            Some(reality) => world::build_real(spec, chain, reality, self.seed)?,
+            None => world::build(spec, chain)?,
+        })
+    }
+
+    /// U_1..U_j-1, or the accepted poses of a method that owns the run: what must be executed, in order, before each
+    /// candidate.
+    pub fn prefix(&self) -> impl Iterator<Item = &[f64]> {
+        let owned = self.owner.iter().flat_map(Owner::prefix);
+        let results = if self.owner.is_some() { &[] } else { self.results.as_slice() };
+        owned.chain(results.iter().map(|r| r.joints.as_slice()))
     }
 
     /// Whether every goal has ended.
@@ -155,6 +182,12 @@ impl Iet {
     /// of an unfinished run means that the goal has ended without execution: tell no observations, then bring the world
     /// to the grown [`Iet::prefix`] and ask again.
     pub fn ask(&mut self, batch: &mut Batch) {
+        if let Some(owner) = &self.owner {
+            if let (Next::Execute { joints, .. }, false) = (&owner.next, batch.is_full()) {
+                batch.push(self.evaluations, joints);
+            }
+            return;
+        }
         let Some(optimizer) = &mut self.optimizer else { return };
         if self.goal.ended.is_none() {
             optimizer.ask(batch);
@@ -175,6 +208,9 @@ impl Iet {
     /// [`ProblemError::NothingExecuted`] if the goal ended without any executed candidate, [`ProblemError::Infeasible`]
     /// if none satisfied the constraints.
     pub fn tell(&mut self, observations: &Observations) -> Result<(), ProblemError> {
+        if self.owner.is_some() {
+            return self.tell_owner(observations);
+        }
         let goal_index = self.results.len();
         for (id, joints, observation) in observations.iter() {
             if id == CONFIRMATION {
@@ -192,6 +228,27 @@ impl Iet {
         for (value, &source) in self.seen.iter_mut().zip(&self.setup.select) {
             *value = observation[source];
         }
+    }
+
+    /// As [`Iet::tell`], for a method that owns the run: a lost observation costs an evaluation too.
+    fn tell_owner(&mut self, observations: &Observations) -> Result<(), ProblemError> {
+        let Some(owner) = &mut self.owner else { return Ok(()) };
+        if let Some((_, joints, observation)) = observations.iter().find(|trial| trial.0 == self.evaluations) {
+            let seen = observation.map(|values| self.setup.select.iter().map(|&i| values[i]).collect::<Vec<f64>>());
+            owner.tell(joints, seen.as_deref());
+            self.evaluations += 1;
+            if let Some(percent) = self.setup.painted.and_then(|index| Some(observation?[index]))
+                && self.goal.painted.is_none_or(|best| (percent - 100.0).abs() < (best - 100.0).abs())
+            {
+                self.goal.painted = Some(percent);
+            }
+        }
+        if owner.next == Next::Finished && self.results.is_empty() {
+            self.results = owner.results(&mut self.discrepancy, observations.provenance())?;
+            let goal = std::mem::take(&mut self.goal);
+            self.painted = self.setup.painted.map(|_| goal.painted.unwrap_or(0.0));
+        }
+        Ok(())
     }
 
     fn tell_one(
@@ -311,8 +368,9 @@ impl Iet {
     /// Where the run stands.
     #[must_use]
     pub fn progress(&self) -> Progress {
+        let goal = self.owner.as_ref().map_or(self.results.len(), Owner::goal);
         Progress {
-            goal_index: self.results.len(),
+            goal_index: if self.is_finished() { self.results.len() } else { goal },
             goals: self.setup.goals.len(),
             evaluations: self.evaluations,
             goal_evaluations: if self.is_finished() { 0 } else { self.goal.evaluations },

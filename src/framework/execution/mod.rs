@@ -4,6 +4,7 @@ mod discrepancy;
 mod error;
 mod iet;
 mod observations;
+mod owner;
 mod result;
 mod setup;
 mod simulate;

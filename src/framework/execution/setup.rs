@@ -16,6 +16,7 @@ pub(super) struct Setup {
     pub goals: Goals,
     pub chain: Chain,
     pub spec: ExecutionSpec,
+    pub world: WorldSpec,
     /// For each feature of the goals, its index among the world's.
     pub select: Vec<usize>,
     pub world_features: usize,
@@ -51,6 +52,7 @@ impl Setup {
             goals: problem.goals.clone(),
             chain,
             spec: problem.execution.clone(),
+            world: problem.world.clone(),
             select,
             world_features: shown.len(),
             painted: matches!(problem.world, WorldSpec::Coverage(_)).then_some(0),
@@ -138,8 +140,15 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
     let unexecuted_may_win = match &spec.method {
         MethodSpec::FiPso(method) => method.unexecuted_may_win,
         MethodSpec::AffgPso(method) => method.unexecuted_may_win,
-        MethodSpec::Sst(_) | MethodSpec::Pso(_) => false,
+        MethodSpec::Sst(_)
+        | MethodSpec::Pso(_)
+        | MethodSpec::Model(_)
+        | MethodSpec::Particle(_)
+        | MethodSpec::Search(_) => false,
     };
+    if spec.method.owns_the_run() && !spec.constraints.is_empty() {
+        return Err(ProblemError::Method { method: spec.method.name(), expected: "a problem without constraints" });
+    }
     if unexecuted_may_win && !spec.constraints.is_empty() {
         return Err(ConstraintError::UnexecutedWinner.into());
     }

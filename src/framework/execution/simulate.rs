@@ -6,7 +6,7 @@ use super::observations::Observations;
 use super::result::{Progress, RunResult};
 use super::spec::Problem;
 use crate::framework::optimizer::{Batch, Provenance};
-use crate::framework::world::{self, World};
+use crate::framework::world::World;
 
 /// Candidates asked for at once.
 const BATCH: u64 = 64;
@@ -50,7 +50,7 @@ const SLICE: u64 = 1024;
 /// As [`run`].
 pub fn run_while(problem: &Problem, seed: u64, go_on: impl Fn() -> bool) -> Result<Option<RunResult>, ProblemError> {
     let mut iet = Iet::new(problem, seed)?;
-    let mut world = world::build(&problem.world, iet.chain())?;
+    let mut world = iet.world()?;
     while go_on() {
         if simulate(&mut iet, world.as_mut(), SLICE)?.finished {
             return iet.finish().map(Some);
@@ -65,7 +65,7 @@ pub fn run_while(problem: &Problem, seed: u64, go_on: impl Fn() -> bool) -> Resu
 /// As [`Iet::new`] and [`simulate`].
 pub fn run(problem: &Problem, seed: u64) -> Result<RunResult, ProblemError> {
     let mut iet = Iet::new(problem, seed)?;
-    let mut world = world::build(&problem.world, iet.chain())?;
+    let mut world = iet.world()?;
     simulate(&mut iet, world.as_mut(), u64::MAX)?;
     iet.finish()
 }

@@ -5,7 +5,7 @@ use crate::framework::generalization::Goals;
 use crate::framework::optimizer::MethodSpec;
 use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;
-use crate::framework::world::WorldSpec;
+use crate::framework::world::{RealitySpec, WorldSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -47,6 +47,9 @@ pub struct ExecutionSpec {
     /// runs' simulator was not exactly repeatable: 1e-13 mm reproduces their stagnation counts.
     #[serde(default)]
     pub rounding_noise: f64,
+    /// How far the simulated real world is from its description; as described when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reality: Option<RealitySpec>,
     /// What every candidate must satisfy.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub constraints: Vec<ConstraintSpec>,
@@ -73,6 +76,7 @@ impl ExecutionSpec {
             tolerance: None,
             max_evaluations_per_goal: None,
             rounding_noise: 0.0,
+            reality: None,
             constraints: Vec::new(),
             handling: HandlingSpec::default(),
             on_infeasible: OnInfeasible::default(),

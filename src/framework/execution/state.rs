@@ -3,6 +3,7 @@
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
 use crate::framework::optimizer::{OptimizerState, StopReason};
+use crate::framework::whole_run::Trial;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`IetState`]; changes when its meaning does.
@@ -19,6 +20,9 @@ pub struct IetState {
     pub(super) goal: GoalState,
     pub(super) painted: Option<f64>,
     pub(super) optimizer: Option<OptimizerState>,
+    /// The trials of a method that owns the run.
+    #[serde(default)]
+    pub(super) log: Vec<Trial>,
 }
 
 /// The goal being searched.
@@ -49,7 +53,7 @@ impl IetState {
     }
 
     /// Whether this state can be one of a problem with n goals, that many genes and m features.
-    pub(super) fn check(&self, goals: usize, genes: usize, features: usize) -> Result<(), ProblemError> {
+    pub(super) fn check(&self, owned: bool, goals: usize, genes: usize, features: usize) -> Result<(), ProblemError> {
         if self.version != STATE_VERSION {
             return Err(ProblemError::Version { found: self.version, expected: STATE_VERSION });
         }
@@ -58,8 +62,13 @@ impl IetState {
             return shape("finished goals", self.results.len(), goals);
         }
         let searching = usize::from(self.optimizer.is_some());
-        if searching != usize::from(self.results.len() < goals) {
+        if !owned && searching != usize::from(self.results.len() < goals) {
             return shape("goals being searched", searching, 1 - searching);
+        }
+        for trial in &self.log {
+            if trial.joints.len() != genes {
+                return shape("joints", trial.joints.len(), genes);
+            }
         }
         for result in &self.results {
             if result.joints.len() != genes {

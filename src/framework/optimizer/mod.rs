@@ -24,7 +24,7 @@ pub use batch::Batch;
 pub use bounds::BoundsRule;
 pub(in crate::framework) use hall::Hall;
 pub use rng::RandomStream;
-pub use spec::{MethodSpec, SstSpec};
+pub use spec::{MethodSpec, ParticleSpec, SstSpec};
 pub use sst::{Sst, SstState};
 pub use swarm::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, SwarmState, VelocityClamp};
 
@@ -70,6 +70,8 @@ pub enum StopReason {
     MaxEvaluations,
     /// The search ended without a candidate that satisfies the constraints.
     Infeasible,
+    /// No pose is expected to come nearer: the result is the best residual.
+    OutOfReach,
 }
 
 /// What became of a candidate.
@@ -250,6 +252,12 @@ pub enum OptimizerError {
         /// The range.
         expected: &'static str,
     },
+    /// A method that has no search of one goal.
+    #[error("{method} owns the whole run: it cannot search for one goal alone")]
+    OwnsTheRun {
+        /// Method name.
+        method: &'static str,
+    },
     /// A state saved by another version.
     #[error("the saved {method} state has version {found}, this program reads {expected}: run the job again")]
     Version {
@@ -297,6 +305,9 @@ pub fn start(
         MethodSpec::Pso(spec) => pso::start(spec, space, seed, stream),
         MethodSpec::FiPso(spec) => fi_pso::start(spec, space, seed, stream),
         MethodSpec::AffgPso(spec) => affg_pso::start(spec, space, seed, stream),
+        MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {
+            Err(OptimizerError::OwnsTheRun { method: method.name() })
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::bounds::BoundsRule;
 use super::swarm::{AffgPsoSpec, FiPsoSpec, PsoSpec};
+use crate::framework::whole_run::{CoverSpec, ModelSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -18,11 +19,35 @@ pub enum MethodSpec {
     FiPso(FiPsoSpec),
     /// Particle swarm with adaptive fuzzy fitness granulation.
     AffgPso(AffgPsoSpec),
+    /// MODEL-IET: a Gaussian process of the feature map owns the whole run; a dozen evaluations.
+    Model(ModelSpec),
+    /// PARTICLE-IET: a coverage world with the described robot as an uncertain prior.
+    Particle(ParticleSpec),
+    /// SEARCH-IET: a coverage world with nothing known.
+    Search(CoverSpec),
+}
+
+/// Parameters of PARTICLE-IET.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ParticleSpec {
+    /// The run gives up after this many evaluations.
+    pub max_evaluations: u32,
+    /// Standard deviation of a link's relative length.
+    pub link_share: f64,
+    /// Standard deviation of each coordinate of the base, metres.
+    pub base_shift_m: f64,
+}
+
+impl Default for ParticleSpec {
+    fn default() -> Self {
+        Self { max_evaluations: 400, link_share: 0.046, base_shift_m: 0.03 }
+    }
 }
 
 impl MethodSpec {
     /// Names of all methods.
-    pub const NAMES: [&'static str; 4] = ["sst", "pso", "fi_pso", "affg_pso"];
+    pub const NAMES: [&'static str; 7] = ["sst", "pso", "fi_pso", "affg_pso", "model", "particle", "search"];
 
     /// The method of that name with its defaults.
     #[must_use]
@@ -32,8 +57,17 @@ impl MethodSpec {
             "pso" => Self::Pso(PsoSpec::default()),
             "fi_pso" => Self::FiPso(FiPsoSpec::default()),
             "affg_pso" => Self::AffgPso(AffgPsoSpec::default()),
+            "model" => Self::Model(ModelSpec::default()),
+            "particle" => Self::Particle(ParticleSpec::default()),
+            "search" => Self::Search(CoverSpec::default()),
             _ => return None,
         })
+    }
+
+    /// Whether the method owns a whole run, instead of searching goal by goal.
+    #[must_use]
+    pub fn owns_the_run(&self) -> bool {
+        matches!(self, Self::Model(_) | Self::Particle(_) | Self::Search(_))
     }
 
     /// The method's name, as written in presets and on the command line.
@@ -44,6 +78,9 @@ impl MethodSpec {
             Self::Pso(_) => "pso",
             Self::FiPso(_) => "fi_pso",
             Self::AffgPso(_) => "affg_pso",
+            Self::Model(_) => "model",
+            Self::Particle(_) => "particle",
+            Self::Search(_) => "search",
         }
     }
 }

@@ -142,11 +142,6 @@ impl<'a> Belief<'a> {
             }
         }
     }
-
-    /// The fitted process.
-    pub fn process(&self) -> &Process {
-        &self.process
-    }
 }
 
 pub(super) fn squared_distance(a: &[f64], b: &[f64]) -> f64 {

@@ -4,29 +4,30 @@
 //! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
 //! trial stays. The goal pointer is the first goal above what is observed.
 
-use super::{Proposal, Trial};
+use super::{Outcome, Proposal, Trial};
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
-/// How a run over an accumulating effect ends and whether trials can be undone.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// How a run over an accumulating effect ends.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CoverSpec {
-    /// Whether the world is put back between trials.
-    pub resets: bool,
     /// The run gives up after this many trials.
     pub max_evaluations: u32,
 }
 
 impl Default for CoverSpec {
     fn default() -> Self {
-        Self { resets: true, max_evaluations: 400 }
+        Self { max_evaluations: 400 }
     }
 }
 
 /// The log of a run with what it amounts to.
 #[derive(Debug, Clone)]
 pub(super) struct Ledger {
-    pub spec: CoverSpec,
+    spec: CoverSpec,
+    /// Whether the world is put back between trials.
+    resets: bool,
     goals: Vec<f64>,
     step: f64,
     pub log: Vec<Trial>,
@@ -46,13 +47,13 @@ pub(super) struct Verdict {
 }
 
 impl Ledger {
-    pub fn new(spec: CoverSpec, goals: &[Vec<f64>]) -> Self {
+    pub fn new(spec: CoverSpec, resets: bool, goals: &[Vec<f64>]) -> Self {
         let goals: Vec<f64> = goals.iter().map(|g| g[0]).collect();
         let rises = goals.windows(2).map(|w| w[1] - w[0]).filter(|r| *r > 1e-9);
         let step = rises.fold(f64::INFINITY, f64::min);
         let step = if step.is_finite() { step } else { 1.0 };
         let level = goals.first().copied().unwrap_or(0.0).min(0.0);
-        Self { spec, goals, step, log: Vec::new(), accepted: Vec::new(), level, straight_overshoots: 0 }
+        Self { spec, resets, goals, step, log: Vec::new(), accepted: Vec::new(), level, straight_overshoots: 0 }
     }
 
     /// The first goal above what the world shows; none when all are reached.
@@ -73,7 +74,7 @@ impl Ledger {
         let gain = seen.map(|s| (s - self.level) / self.step);
         let one = gain.is_some_and(|g| (g - 1.0).abs() < 0.5);
         let more = gain.is_some_and(|g| g >= 1.5);
-        let accepted = !self.spec.resets || one || (more && self.straight_overshoots >= 2);
+        let accepted = !self.resets || one || (more && self.straight_overshoots >= 2);
         if accepted {
             self.accepted.push(self.log.len());
             self.level = seen.unwrap_or(self.level);
@@ -83,15 +84,16 @@ impl Ledger {
         Verdict { gain, accepted }
     }
 
-    /// Poses to execute, in order, before the next trial, where the world was put back.
-    pub fn prefix(&self) -> Vec<Vec<f64>> {
-        if !self.spec.resets {
-            return Vec::new();
-        }
-        self.accepted.iter().map(|&i| self.log[i].joints.clone()).collect()
-    }
-
-    pub fn level(&self) -> f64 {
-        self.level
+    /// For each goal the first accepted trial that shows it or more; the last one where none does.
+    pub fn outcomes(&self) -> Vec<Outcome> {
+        let seen = |index: usize| self.log[index].observation.as_ref().map(|o| o[0]);
+        let shown: Vec<(usize, f64)> = self.accepted.iter().filter_map(|&i| Some((i, seen(i)?))).collect();
+        let slack = 1e-6 * self.step;
+        let of = |goal: f64| {
+            let found = shown.iter().find(|s| s.1 >= goal - slack).or(shown.last());
+            let distance = found.map_or(f64::INFINITY, |s| (s.1 - goal).abs());
+            Outcome { trial: found.map(|s| s.0), distance, reached: distance < 0.5 * self.step }
+        };
+        self.goals.iter().map(|&goal| of(goal)).collect()
     }
 }

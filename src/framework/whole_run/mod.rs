@@ -18,7 +18,10 @@ pub mod search;
 pub mod sobol;
 pub mod space;
 
-pub use model::{ModelIet, ModelSpec};
+pub use cover::CoverSpec;
+pub use model::{ModelIet, ModelSpec, Prior};
+pub use particle::{ParticleIet, Simulator};
+pub use search::SearchIet;
 pub use space::{Axis, Space};
 
 use serde::{Deserialize, Serialize};
@@ -58,4 +61,35 @@ pub enum Proposal {
     },
     /// No pose is expected to improve any goal.
     Finished,
+}
+
+/// The result for one goal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Index of the trial whose pose serves the goal best; none when nothing was observed.
+    pub trial: Option<usize>,
+    /// Its distance from the goal, features' unit (with noise: of the model's mean there).
+    pub distance: f64,
+    /// Whether the goal is reached; otherwise `distance` is the best residual.
+    pub reached: bool,
+}
+
+/// A method that owns a whole run. Its state is its configuration and its log: tell a fresh one the log to resume.
+pub trait WholeRun: Send {
+    /// The next pose, a function of configuration, seed and log alone.
+    fn ask(&mut self) -> Proposal;
+
+    /// Appends a trial and learns from it.
+    fn tell(&mut self, trial: Trial);
+
+    /// The trials so far.
+    fn log(&self) -> &[Trial];
+
+    /// Indices of the trials whose effect stays: what is executed before the next trial where a world was put back.
+    fn accepted(&self) -> &[usize] {
+        &[]
+    }
+
+    /// The best own trial of each goal.
+    fn outcomes(&mut self) -> Vec<Outcome>;
 }

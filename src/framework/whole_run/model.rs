@@ -11,10 +11,11 @@
 use super::belief::{Aim, Belief, distance, squared_distance};
 use super::refine::refine;
 use super::space::Space;
-use super::{FeatureMap, Proposal, Trial};
+use super::{FeatureMap, Outcome, Proposal, Trial, WholeRun};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 /// Uniform starts of the search through the model.
 const UNIFORM_STARTS: usize = 600;
@@ -27,12 +28,26 @@ const REFINE_STEPS: usize = 40;
 /// Spread of the local starts, rad.
 const LOCAL_SPREAD: f64 = 0.26;
 
+/// Weight of the predicted variance while a goal has had fewer than [`CAUTIOUS_TRIES`] trials, and after.
+const CAUTION: f64 = 0.1;
+const LATE_CAUTION: f64 = 0.02;
+const CAUTIOUS_TRIES: u32 = 4;
+
+/// What a method believes before its first trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Prior {
+    /// Nothing: identification moves come first.
+    #[default]
+    None,
+    /// The problem's robot and world as described, which the real ones need not match.
+    Simulator,
+}
+
 /// Parameters of MODEL-IET.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ModelSpec {
-    /// A goal is reached within this distance, features' unit (> 0).
-    pub tolerance: f64,
     /// Standard deviation of one observed feature, features' unit; 0 for a world that is exact.
     pub noise: f64,
     /// A goal is given up after this many trials of its own.
@@ -41,27 +56,14 @@ pub struct ModelSpec {
     pub identification_deg: f64,
     /// Largest step of a joint from one trial to the next, degrees (likewise); none where the robot needs none.
     pub max_step_deg: Option<f64>,
-    /// lab
-    pub strategy: u32,
-    /// lab
-    pub caution: f64,
+    /// What is believed before the first trial.
+    pub prior: Prior,
 }
 
 impl Default for ModelSpec {
     fn default() -> Self {
-        Self { tolerance: 30.0, noise: 0.0, max_tries: 15, identification_deg: 45.0, max_step_deg: None, strategy: 1, caution: 0.1 }
+        Self { noise: 0.0, max_tries: 15, identification_deg: 45.0, max_step_deg: None, prior: Prior::None }
     }
-}
-
-/// The result for one goal.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
-    /// Index of the trial whose pose serves the goal best; none when nothing was observed.
-    pub trial: Option<usize>,
-    /// Its distance from the goal, features' unit (with noise: of the model's mean there).
-    pub distance: f64,
-    /// Whether that is within the tolerance.
-    pub reached: bool,
 }
 
 /// A goal that is still worth a trial.
@@ -84,6 +86,7 @@ struct Start {
 /// A run of MODEL-IET.
 pub struct ModelIet {
     spec: ModelSpec,
+    tolerance: f64,
     space: Space,
     goals: Vec<Vec<f64>>,
     prior: Option<Box<dyn FeatureMap>>,
@@ -94,10 +97,10 @@ pub struct ModelIet {
 }
 
 impl ModelIet {
-    /// A run for `goals` (n rows of m features) over `space`.
+    /// A run for `goals` (n rows of m features) over `space`; a goal is reached within `tolerance` (features' unit).
     #[must_use]
-    pub fn new(spec: ModelSpec, space: Space, goals: Vec<Vec<f64>>, seed: u64) -> Self {
-        Self { spec, space, goals, prior: None, earlier: Vec::new(), log: Vec::new(), seed, admissible: None }
+    pub fn new(spec: ModelSpec, tolerance: f64, space: Space, goals: Vec<Vec<f64>>, seed: u64) -> Self {
+        Self { spec, tolerance, space, goals, prior: None, earlier: Vec::new(), log: Vec::new(), seed, admissible: None }
     }
 
     /// With a simulator as the prior mean.
@@ -121,17 +124,6 @@ impl ModelIet {
         self
     }
 
-    /// The trials so far: with the configuration, the whole state.
-    #[must_use]
-    pub fn log(&self) -> &[Trial] {
-        &self.log
-    }
-
-    /// Appends a trial.
-    pub fn tell(&mut self, trial: Trial) {
-        self.log.push(trial);
-    }
-
     fn identification_count(&self) -> usize {
         let nothing_known = self.prior.is_none() && self.earlier.iter().all(|t| t.observation.is_none());
         if nothing_known { self.space.len() + 1 } else { 0 }
@@ -139,22 +131,6 @@ impl ModelIet {
 
     fn is_admissible(&self, pose: &[f64]) -> bool {
         self.admissible.as_ref().is_none_or(|test| test(pose))
-    }
-
-    /// The next pose; a pure function of configuration, log and seed.
-    pub fn ask(&mut self) -> Proposal {
-        let identification = self.identification_count();
-        if self.log.len() < identification {
-            let step = self.spec.identification_deg.to_radians();
-            let pose = self.space.identification(self.log.len(), step);
-            if let Some(joints) = pose.filter(|p| self.is_admissible(p)) {
-                return Proposal::Execute { joints, goal: 0 };
-            }
-        }
-        let mut prior = self.prior.take();
-        let proposal = self.ask_model(identification, prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap));
-        self.prior = prior;
-        proposal
     }
 
     fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> Proposal {
@@ -171,11 +147,10 @@ impl ModelIet {
         let starts = self.shared_starts(&mut belief, &mut random);
         let mut chosen: Option<(f64, Vec<f64>, usize)> = None;
         for goal in &open {
-            let Some((rank, joints)) = self.sure_pose(goal, &open, &starts, &mut belief, &mut random) else { continue };
+            let Some((rank, joints)) = self.sure_pose(goal, &starts, &mut belief, &mut random) else { continue };
             if chosen.as_ref().is_none_or(|c| rank < c.0) {
                 chosen = Some((rank, joints, goal.index));
             }
-            if self.spec.strategy == 0 { break; }
         }
         if chosen.is_none() {
             for goal in &open {
@@ -239,8 +214,8 @@ impl ModelIet {
         for index in 0..self.goals.len() {
             let tries = self.log.iter().skip(identification).filter(|t| t.goal == index).count() as u32;
             let (_, best) = self.best(index, belief);
-            if best > self.spec.tolerance && tries < self.spec.max_tries {
-                let need = (0.25 * self.spec.tolerance).max(0.02 * best);
+            if best + self.spec.noise > self.tolerance && tries < self.spec.max_tries {
+                let need = (0.25 * self.tolerance).max(0.02 * best);
                 open.push(Open { index, tries, best, need });
             }
         }
@@ -259,17 +234,17 @@ impl ModelIet {
             .collect()
     }
 
-    /// The pose expected nearest to the goal among those the model is sure of, if it improves enough; with its rank.
+    /// The pose expected nearest to the goal among those the model is sure of, if it improves enough; with the squared
+    /// distance expected.
     fn sure_pose(
         &self,
         goal: &Open,
-        open: &[Open],
         shared: &[Start],
         belief: &mut Belief,
         random: &mut ChaCha8Rng,
     ) -> Option<(f64, Vec<f64>)> {
         let target = self.goals[goal.index].as_slice();
-        let sure = Aim { goal: target, caution: if goal.tries < 4 { self.spec.caution } else { 0.02 } };
+        let sure = Aim { goal: target, caution: if goal.tries < CAUTIOUS_TRIES { CAUTION } else { LATE_CAUTION } };
         let poses = self.search(shared, sure, belief, random);
         let nearest = poses.into_iter().map(|pose| (belief.score(&pose, sure), pose));
         let (_, pose) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -278,14 +253,7 @@ impl ModelIet {
         if goal.best - miss < goal.need {
             return None;
         }
-        let m = target.len() as f64;
-        let rank = match self.spec.strategy {
-            0 | 1 => (miss * miss + m * variance).sqrt(),
-            2 => -(miss * miss + m * variance).sqrt(),
-            3 => -(goal.best - (miss * miss + m * variance).sqrt()),
-            _ => -open.iter().map(|k| (k.best - (distance(&belief.mean, &self.goals[k.index]).powi(2) + m * variance).sqrt()).max(0.0)).sum::<f64>(),
-        };
-        Some((rank, pose))
+        Some((miss * miss + target.len() as f64 * variance, pose))
     }
 
     /// The pose that, looked at optimistically, improves the goal enough.
@@ -358,9 +326,33 @@ impl ModelIet {
         }
         joints
     }
+}
 
-    /// The best own pose of each goal.
-    pub fn outcomes(&mut self) -> Vec<Outcome> {
+impl WholeRun for ModelIet {
+    fn ask(&mut self) -> Proposal {
+        let identification = self.identification_count();
+        if self.log.len() < identification {
+            let step = self.spec.identification_deg.to_radians();
+            let pose = self.space.identification(self.log.len(), step);
+            if let Some(joints) = pose.filter(|p| self.is_admissible(p)) {
+                return Proposal::Execute { joints, goal: 0 };
+            }
+        }
+        let mut prior = self.prior.take();
+        let proposal = self.ask_model(identification, prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap));
+        self.prior = prior;
+        proposal
+    }
+
+    fn tell(&mut self, trial: Trial) {
+        self.log.push(trial);
+    }
+
+    fn log(&self) -> &[Trial] {
+        &self.log
+    }
+
+    fn outcomes(&mut self) -> Vec<Outcome> {
         let mut prior = self.prior.take();
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         let map = prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap);
@@ -368,7 +360,7 @@ impl ModelIet {
             (0..self.goals.len())
                 .map(|goal| {
                     let (trial, miss) = self.best(goal, &mut belief);
-                    Outcome { trial, distance: miss, reached: miss <= self.spec.tolerance }
+                    Outcome { trial, distance: miss, reached: miss <= self.tolerance }
                 })
                 .collect()
         });

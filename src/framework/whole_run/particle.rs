@@ -10,7 +10,7 @@
 use super::cover::{CoverSpec, Ledger};
 use super::sobol;
 use super::space::{Space, gaussian};
-use super::{Proposal, Trial};
+use super::{Outcome, Proposal, Trial, WholeRun};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -68,7 +68,7 @@ fn fresh(cover: &[u64], painted: &[u64]) -> u32 {
 impl ParticleIet {
     /// A run for `goals` over `space` with `simulator` as the prior.
     #[must_use]
-    pub fn new(spec: CoverSpec, space: Space, goals: &[Vec<f64>], simulator: Box<dyn Simulator>, seed: u64) -> Self {
+    pub fn new(spec: CoverSpec, resets: bool, space: Space, goals: &[Vec<f64>], simulator: Box<dyn Simulator>, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let poses = sobol::poses(&space, POSES, &mut random);
         let spreads = simulator.spreads();
@@ -81,7 +81,7 @@ impl ParticleIet {
             })
             .collect();
         let mut run = Self {
-            ledger: Ledger::new(spec, goals),
+            ledger: Ledger::new(spec, resets, goals),
             seed,
             space,
             simulator,
@@ -186,17 +186,17 @@ impl ParticleIet {
         self.poses = pool;
     }
 
-    /// The next pose: a function of what was told alone.
-    #[must_use]
-    pub fn ask(&self) -> Proposal {
+}
+
+impl WholeRun for ParticleIet {
+    fn ask(&mut self) -> Proposal {
         match self.next {
             Some(z) if !self.ledger.is_over() => self.ledger.propose(self.poses[z].clone()),
             _ => Proposal::Finished,
         }
     }
 
-    /// Learns from a trial and decides on the next one.
-    pub fn tell(&mut self, trial: Trial) {
+    fn tell(&mut self, trial: Trial) {
         let tried = [trial.joints.clone()];
         let verdict = self.ledger.tell(trial);
         if let Some(z) = self.poses.iter().position(|p| *p == tried[0]) {
@@ -212,34 +212,16 @@ impl ParticleIet {
         }
     }
 
-    /// The joints searched.
-    #[must_use]
-    pub fn space(&self) -> &Space {
-        &self.space
-    }
-
-    /// The trials so far.
-    #[must_use]
-    pub fn log(&self) -> &[Trial] {
+    fn log(&self) -> &[Trial] {
         &self.ledger.log
     }
 
-    /// Indices of the accepted trials.
-    #[must_use]
-    pub fn accepted(&self) -> &[usize] {
+    fn accepted(&self) -> &[usize] {
         &self.ledger.accepted
     }
 
-    /// What the world shows after the accepted trials.
-    #[must_use]
-    pub fn level(&self) -> f64 {
-        self.ledger.level()
-    }
-
-    /// Poses to execute before the next trial where the world was put back.
-    #[must_use]
-    pub fn prefix(&self) -> Vec<Vec<f64>> {
-        self.ledger.prefix()
+    fn outcomes(&mut self) -> Vec<Outcome> {
+        self.ledger.outcomes()
     }
 }
 

@@ -10,7 +10,7 @@
 use super::cover::{CoverSpec, Ledger};
 use super::sobol;
 use super::space::Space;
-use super::{Proposal, Trial};
+use super::{Outcome, Proposal, Trial, WholeRun};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -43,11 +43,11 @@ pub struct SearchIet {
 impl SearchIet {
     /// A run for `goals` (n rows, the share in the first column) over `space`.
     #[must_use]
-    pub fn new(spec: CoverSpec, space: &Space, goals: &[Vec<f64>], seed: u64) -> Self {
+    pub fn new(spec: CoverSpec, resets: bool, space: &Space, goals: &[Vec<f64>], seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let poses = sobol::poses(space, POSES, &mut random);
         let mut run = Self {
-            ledger: Ledger::new(spec, goals),
+            ledger: Ledger::new(spec, resets, goals),
             scale: space.axes.iter().map(|a| a.scale().to_degrees()).collect(),
             poses,
             used: vec![false; POSES],
@@ -81,9 +81,27 @@ impl SearchIet {
         if ratio > 3.0 { 0.0 } else { (-ratio * ratio).exp() }
     }
 
-    /// The next pose: a function of what was told alone.
-    #[must_use]
-    pub fn ask(&self) -> Proposal {
+    fn thin(&mut self, nearest: usize, ball: &[f64], hit: bool, accepted: bool) {
+        if hit && !accepted {
+            self.surv[nearest] *= REFUSED;
+        } else {
+            self.surv.iter_mut().zip(ball).for_each(|(s, b)| *s *= 1.0 - b);
+        }
+    }
+
+    fn rebuild(&mut self) {
+        self.find_near();
+        self.surv.fill(1.0);
+        for (nearest, hit, accepted) in self.verdicts.clone() {
+            let centre = self.poses[nearest].clone();
+            let ball: Vec<f64> = self.poses.iter().map(|x| self.ball(self.squared(&centre, x))).collect();
+            self.thin(nearest, &ball, hit, accepted);
+        }
+    }
+}
+
+impl WholeRun for SearchIet {
+    fn ask(&mut self) -> Proposal {
         if self.ledger.is_over() {
             return Proposal::Finished;
         }
@@ -102,8 +120,7 @@ impl SearchIet {
         best.1.map_or(Proposal::Finished, |z| self.ledger.propose(self.poses[z].clone()))
     }
 
-    /// Learns from a trial.
-    pub fn tell(&mut self, trial: Trial) {
+    fn tell(&mut self, trial: Trial) {
         let joints = trial.joints.clone();
         let verdict = self.ledger.tell(trial);
         let squared: Vec<f64> = self.poses.iter().map(|x| self.squared(&joints, x)).collect();
@@ -129,45 +146,15 @@ impl SearchIet {
         }
     }
 
-    fn thin(&mut self, nearest: usize, ball: &[f64], hit: bool, accepted: bool) {
-        if hit && !accepted {
-            self.surv[nearest] *= REFUSED;
-        } else {
-            self.surv.iter_mut().zip(ball).for_each(|(s, b)| *s *= 1.0 - b);
-        }
-    }
-
-    fn rebuild(&mut self) {
-        self.find_near();
-        self.surv.fill(1.0);
-        for (nearest, hit, accepted) in self.verdicts.clone() {
-            let centre = self.poses[nearest].clone();
-            let ball: Vec<f64> = self.poses.iter().map(|x| self.ball(self.squared(&centre, x))).collect();
-            self.thin(nearest, &ball, hit, accepted);
-        }
-    }
-
-    /// The trials so far.
-    #[must_use]
-    pub fn log(&self) -> &[Trial] {
+    fn log(&self) -> &[Trial] {
         &self.ledger.log
     }
 
-    /// Indices of the accepted trials.
-    #[must_use]
-    pub fn accepted(&self) -> &[usize] {
+    fn accepted(&self) -> &[usize] {
         &self.ledger.accepted
     }
 
-    /// What the world shows after the accepted trials.
-    #[must_use]
-    pub fn level(&self) -> f64 {
-        self.ledger.level()
-    }
-
-    /// Poses to execute before the next trial where the world was put back.
-    #[must_use]
-    pub fn prefix(&self) -> Vec<Vec<f64>> {
-        self.ledger.prefix()
+    fn outcomes(&mut self) -> Vec<Outcome> {
+        self.ledger.outcomes()
     }
 }

@@ -6,12 +6,14 @@
 
 mod coverage;
 mod error;
+mod real;
 mod spec;
 #[cfg(test)]
 mod tests;
 mod tool_position;
 
 pub use error::WorldError;
+pub use real::{RealitySpec, build_real};
 pub use spec::{CoverageSpec, ToolPositionSpec, WorldSpec};
 
 use crate::framework::Feature;

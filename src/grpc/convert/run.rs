@@ -47,6 +47,7 @@ pub fn stop_reason(reason: StopReason) -> String {
         StopReason::Target => "target",
         StopReason::Tolerance => "tolerance",
         StopReason::MaxEvaluations => "max_evaluations",
+        StopReason::OutOfReach => "out_of_reach",
         StopReason::Infeasible => "infeasible",
     }
     .to_owned()

@@ -65,6 +65,10 @@ fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
         tolerance: finite_or_none("/execution/tolerance", spec.tolerance)?,
         max_evaluations_per_goal: spec.max_evaluations_per_goal,
         rounding_noise: finite("/execution/rounding_noise", spec.rounding_noise)?,
+        reality: match spec.reality_json.as_str() {
+            "" => None,
+            json => Some(document("/execution/reality_json", json)?),
+        },
     })
 }
 
@@ -179,6 +183,7 @@ impl From<ExecutionSpec> for proto::ExecutionSpec {
             tolerance: spec.tolerance,
             max_evaluations_per_goal: spec.max_evaluations_per_goal,
             rounding_noise: spec.rounding_noise,
+            reality_json: spec.reality.as_ref().map_or_else(String::new, json),
         }
     }
 }
@@ -208,6 +213,9 @@ mod tests {
                 "constraints": [{"kind": "region", "geometry": {"shape": "sphere", "center_m": [0.5, 0, 0], "radius_m": 0.4}}],
                 "handling": {"strategy": "penalty", "penalty": {"kind": "dynamic", "weight": 2.5}},
                 "on_infeasible": "append"}}),
+            serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
+                "world": format!("wld_{id}"), "seed": 7, "execution": {"method": {"name": "model"},
+                "reality": {"link_share": 0.05, "base_shift_m": 0.02}}}),
         ] {
             let before = request(json);
             assert_eq!(work(Some(before.clone().into())).unwrap(), before);

@@ -1,0 +1,212 @@
+//! Methods that own the whole run, plugged into [`super::Iet`]: they are told every observation and name one pose at a
+//! time; the run's state is their log.
+
+use super::discrepancy::PartialDiscrepancy;
+use super::error::ProblemError;
+use super::result::{GoalResult, TracePoint};
+use super::setup::Setup;
+use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
+use crate::framework::robot::{Chain, JointKind};
+use crate::framework::whole_run::{
+    Axis, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space, Trial, WholeRun,
+};
+use crate::framework::world::{self, CoverageSpec, World, WorldSpec};
+
+/// Share of the goals' extent that is near enough where no tolerance is given.
+const TOLERANCE_SHARE: f64 = 0.1;
+
+/// A method at work, with what it wants next.
+pub(super) struct Owner {
+    method: Box<dyn WholeRun>,
+    pub next: Proposal,
+}
+
+impl Owner {
+    /// The method of `setup`, told `log`; none where each goal has a search of its own.
+    pub fn start(setup: &Setup, seed: u64, log: &[Trial]) -> Result<Option<Self>, ProblemError> {
+        let Some(mut method) = method(setup, seed)? else { return Ok(None) };
+        for trial in log {
+            method.tell(trial.clone());
+        }
+        let next = method.ask();
+        Ok(Some(Self { method, next }))
+    }
+
+    pub fn log(&self) -> &[Trial] {
+        self.method.log()
+    }
+
+    /// The poses whose effect stays, in order.
+    pub fn prefix(&self) -> impl Iterator<Item = &[f64]> {
+        self.method.accepted().iter().map(|&index| self.method.log()[index].joints.as_slice())
+    }
+
+    /// The goal being tried.
+    pub fn goal(&self) -> usize {
+        match &self.next {
+            Proposal::Execute { goal, .. } => *goal,
+            Proposal::Finished => self.log().last().map_or(0, |t| t.goal),
+        }
+    }
+
+    pub fn tell(&mut self, joints: &[f64], observation: Option<&[f64]>) {
+        let goal = self.goal();
+        self.method.tell(Trial { joints: joints.to_vec(), observation: observation.map(<[f64]>::to_vec), goal });
+        self.next = self.method.ask();
+    }
+
+    /// The results of all goals, once the method has finished.
+    pub fn results(
+        &mut self,
+        discrepancy: &mut PartialDiscrepancy,
+        provenance: Provenance,
+    ) -> Result<Vec<GoalResult>, ProblemError> {
+        let outcomes = self.method.outcomes();
+        let log = self.method.log();
+        let mut results = Vec::with_capacity(outcomes.len());
+        for (index, outcome) in outcomes.iter().enumerate() {
+            let of_goal = |trial: &&Trial| trial.goal == index;
+            let evaluations = log.iter().filter(of_goal).count() as u64;
+            let failures = log.iter().filter(of_goal).filter(|t| t.observation.is_none()).count() as u64;
+            let nothing = ProblemError::NothingExecuted { goal: index, failures };
+            let Some(trial) = outcome.trial.map(|t| &log[t]) else { return Err(nothing) };
+            let Some(observation) = trial.observation.clone() else { return Err(nothing) };
+            let value = discrepancy.of(&observation);
+            discrepancy.append(&observation);
+            results.push(GoalResult {
+                index,
+                evaluations,
+                failures,
+                discrepancy: value,
+                stop_reason: if outcome.reached { StopReason::Tolerance } else { StopReason::OutOfReach },
+                joints: trial.joints.clone(),
+                observation,
+                provenance,
+                true_discrepancy: None,
+                feasible: true,
+                tally: match provenance {
+                    Provenance::Real => Tally { real: evaluations, ..Tally::default() },
+                    _ => Tally { simulated: evaluations, ..Tally::default() },
+                },
+                trace: vec![TracePoint { evaluations, discrepancy: value }],
+            });
+        }
+        Ok(results)
+    }
+}
+
+fn method(setup: &Setup, seed: u64) -> Result<Option<Box<dyn WholeRun>>, ProblemError> {
+    let goals: Vec<Vec<f64>> = setup.goals.rows().map(<[f64]>::to_vec).collect();
+    let space = space(&setup.chain);
+    Ok(Some(match &setup.spec.method {
+        MethodSpec::Sst(_) | MethodSpec::Pso(_) | MethodSpec::FiPso(_) | MethodSpec::AffgPso(_) => return Ok(None),
+        MethodSpec::Model(spec) => {
+            let tolerance = setup.spec.tolerance.unwrap_or_else(|| TOLERANCE_SHARE * extent(&goals));
+            let mut run = ModelIet::new(spec.clone(), tolerance, space, goals, seed);
+            if spec.prior == Prior::Simulator {
+                run = run.with_prior(Box::new(Simulated::new(setup)?));
+            }
+            Box::new(run)
+        }
+        MethodSpec::Search(spec) => {
+            let coverage = coverage(setup, "search")?;
+            Box::new(SearchIet::new(spec.clone(), coverage.resets, &space, &goals, seed))
+        }
+        MethodSpec::Particle(spec) => {
+            let coverage = coverage(setup, "particle")?.clone();
+            let limit = CoverSpec { max_evaluations: spec.max_evaluations };
+            let resets = coverage.resets;
+            let world = WorldSpec::Coverage(coverage);
+            let simulator = Uncertain { chain: setup.chain.clone(), world, spec: spec.clone() };
+            Box::new(ParticleIet::new(limit, resets, space, &goals, Box::new(simulator), seed))
+        }
+    }))
+}
+
+fn coverage<'a>(setup: &'a Setup, method: &'static str) -> Result<&'a CoverageSpec, ProblemError> {
+    match &setup.world {
+        WorldSpec::Coverage(coverage) => Ok(coverage),
+        WorldSpec::ToolPosition(_) => Err(ProblemError::Method { method, expected: "a coverage world; take model here" }),
+    }
+}
+
+fn space(chain: &Chain) -> Space {
+    let joints = chain.genes().iter().zip(chain.home());
+    let axis = |(gene, home): (&crate::framework::robot::Gene, f64)| Axis {
+        lower: gene.lower,
+        upper: gene.upper,
+        home,
+        revolute: gene.kind != JointKind::Prismatic,
+    };
+    Space { axes: joints.map(axis).collect() }
+}
+
+/// Diagonal of the box around the goals, features' unit; 1 where all goals are one.
+fn extent(goals: &[Vec<f64>]) -> f64 {
+    let side = |k: usize| {
+        let column = || goals.iter().map(|g| g[k]);
+        column().fold(f64::NEG_INFINITY, f64::max) - column().fold(f64::INFINITY, f64::min)
+    };
+    let diagonal = (0..goals[0].len()).map(|k| side(k).powi(2)).sum::<f64>().sqrt();
+    if diagonal > 0.0 { diagonal } else { 1.0 }
+}
+
+/// The problem's own world as a prior.
+struct Simulated {
+    world: Box<dyn World>,
+    select: Vec<usize>,
+    scratch: Vec<f64>,
+}
+
+impl Simulated {
+    fn new(setup: &Setup) -> Result<Self, ProblemError> {
+        let world = world::build(&setup.world, &setup.chain)?;
+        Ok(Self { world, select: setup.select.clone(), scratch: vec![0.0; setup.world_features] })
+    }
+}
+
+impl FeatureMap for Simulated {
+    fn predict(&mut self, joints: &[f64], features: &mut [f64]) {
+        self.world.observe(joints, &mut self.scratch);
+        for (value, &source) in features.iter_mut().zip(&self.select) {
+            *value = self.scratch[source];
+        }
+    }
+}
+
+/// The problem's robot with uncertain link lengths and base, in its coverage world.
+struct Uncertain {
+    chain: Chain,
+    world: WorldSpec,
+    spec: ParticleSpec,
+}
+
+impl Simulator for Uncertain {
+    fn spreads(&self) -> Vec<f64> {
+        let links = vec![self.spec.link_share; self.chain.link_count()];
+        [links, vec![self.spec.base_shift_m; 3]].concat()
+    }
+
+    fn cells(&self) -> usize {
+        match &self.world {
+            WorldSpec::Coverage(coverage) => coverage.columns as usize * coverage.rows as usize,
+            WorldSpec::ToolPosition(_) => 0,
+        }
+    }
+
+    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<Vec<u64>> {
+        let links = self.chain.link_count();
+        let scales: Vec<f64> = parameters[..links].iter().map(|p| 1.0 + p).collect();
+        let shift = [parameters[links], parameters[links + 1], parameters[links + 2]];
+        let Ok(mut world) = world::build(&self.world, &self.chain.distorted(&scales, shift)) else {
+            return vec![vec![0; self.cells().div_ceil(64)]; poses.len()];
+        };
+        let mut seen = vec![0.0; world.features().len()];
+        let mut cover = |pose: &Vec<f64>| {
+            world.reset();
+            world.commit(pose, &mut seen);
+            world.cells().unwrap_or_default().to_vec()
+        };
+        poses.iter().map(&mut cover).collect()
+    }
+}
