@@ -126,7 +126,9 @@ fn method(setup: &Setup, seed: u64) -> Result<Option<Box<dyn WholeRun>>, Problem
 fn coverage<'a>(setup: &'a Setup, method: &'static str) -> Result<&'a CoverageSpec, ProblemError> {
     match &setup.world {
         WorldSpec::Coverage(coverage) => Ok(coverage),
-        WorldSpec::ToolPosition(_) => Err(ProblemError::Method { method, expected: "a coverage world; take model here" }),
+        WorldSpec::ToolPosition(_) => {
+            Err(ProblemError::Method { method, expected: "a coverage world; take model here" })
+        }
     }
 }
 

@@ -114,8 +114,7 @@ impl<'a> Belief<'a> {
     /// As [`Belief::score`], with gradient and Gauss-Newton Hessian.
     pub fn score_with_slopes(&mut self, pose: &[f64], aim: Aim, local: &mut Local) {
         let (d, m) = (pose.len(), aim.goal.len());
-        let variance =
-            self.process.predict_with_slopes(pose, &mut self.mean, &mut self.jacobian, &mut self.slope);
+        let variance = self.process.predict_with_slopes(pose, &mut self.mean, &mut self.jacobian, &mut self.slope);
         self.add_prior(pose);
         if let Some(prior) = self.prior.as_deref_mut() {
             self.moved.copy_from_slice(pose);

@@ -100,7 +100,17 @@ impl ModelIet {
     /// A run for `goals` (n rows of m features) over `space`; a goal is reached within `tolerance` (features' unit).
     #[must_use]
     pub fn new(spec: ModelSpec, tolerance: f64, space: Space, goals: Vec<Vec<f64>>, seed: u64) -> Self {
-        Self { spec, tolerance, space, goals, prior: None, earlier: Vec::new(), log: Vec::new(), seed, admissible: None }
+        Self {
+            spec,
+            tolerance,
+            space,
+            goals,
+            prior: None,
+            earlier: Vec::new(),
+            log: Vec::new(),
+            seed,
+            admissible: None,
+        }
     }
 
     /// With a simulator as the prior mean.
@@ -214,7 +224,7 @@ impl ModelIet {
         for index in 0..self.goals.len() {
             let tries = self.log.iter().skip(identification).filter(|t| t.goal == index).count() as u32;
             let (_, best) = self.best(index, belief);
-            if best + self.spec.noise > self.tolerance && tries < self.spec.max_tries {
+            if best + self.spec.noise.min(0.1 * self.tolerance) > self.tolerance && tries < self.spec.max_tries {
                 let need = (0.25 * self.tolerance).max(0.02 * best);
                 open.push(Open { index, tries, best, need });
             }

@@ -26,6 +26,8 @@ const CONVINCING: f64 = 0.5;
 /// Below this a random unused pose is tried.
 const HOPELESS: f64 = 0.02;
 const RESAMPLINGS: u32 = 2;
+/// After this many hopeless decisions in a row the rest is reported as out of reach.
+const PATIENCE: u32 = 12;
 /// Jitter of a resampled particle, in standard deviations of the prior.
 const JITTER: f64 = 0.25;
 
@@ -59,6 +61,7 @@ pub struct ParticleIet {
     particles: Vec<Particle>,
     verdicts: Vec<(Option<f64>, bool)>,
     next: Option<usize>,
+    hopeless: u32,
 }
 
 fn fresh(cover: &[u64], painted: &[u64]) -> u32 {
@@ -68,7 +71,14 @@ fn fresh(cover: &[u64], painted: &[u64]) -> u32 {
 impl ParticleIet {
     /// A run for `goals` over `space` with `simulator` as the prior.
     #[must_use]
-    pub fn new(spec: CoverSpec, resets: bool, space: Space, goals: &[Vec<f64>], simulator: Box<dyn Simulator>, seed: u64) -> Self {
+    pub fn new(
+        spec: CoverSpec,
+        resets: bool,
+        space: Space,
+        goals: &[Vec<f64>],
+        simulator: Box<dyn Simulator>,
+        seed: u64,
+    ) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let poses = sobol::poses(&space, POSES, &mut random);
         let spreads = simulator.spreads();
@@ -90,6 +100,7 @@ impl ParticleIet {
             particles,
             verdicts: Vec::new(),
             next: None,
+            hopeless: 0,
         };
         run.decide();
         run
@@ -130,7 +141,10 @@ impl ParticleIet {
             self.resample(&mut random);
             best = self.best();
         }
+        let is_hopeless = best.is_none_or(|b| b.0 < HOPELESS);
+        self.hopeless = if is_hopeless { self.hopeless + 1 } else { 0 };
         self.next = match best {
+            _ if self.hopeless > PATIENCE => None,
             Some((chance, z)) if chance >= HOPELESS => Some(z),
             Some(_) => {
                 let unused: Vec<usize> = (0..self.poses.len()).filter(|&z| !self.used[z]).collect();
@@ -185,7 +199,6 @@ impl ParticleIet {
         self.used = vec![false; pool.len()];
         self.poses = pool;
     }
-
 }
 
 impl WholeRun for ParticleIet {

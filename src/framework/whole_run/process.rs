@@ -93,8 +93,7 @@ impl Process {
                 }
                 let Some((cholesky, alpha, log_determinant, fit)) = &shared else { continue };
                 let determinant = log_determinant + n as f64 * variance.ln();
-                let evidence =
-                    -0.5 * fit / variance - 0.5 * m as f64 * determinant + shape_prior + log_prior(c, 1.0);
+                let evidence = -0.5 * fit / variance - 0.5 * m as f64 * determinant + shape_prior + log_prior(c, 1.0);
                 if best.as_ref().is_none_or(|b| evidence > b.evidence) {
                     let (cholesky, alpha) = (cholesky.clone(), alpha.clone());
                     best = Some(Choice { evidence, kernel, variance, cholesky, alpha });

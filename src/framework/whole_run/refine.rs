@@ -25,12 +25,7 @@ impl Local {
 }
 
 /// Moves `pose` downhill for at most `steps` evaluations of `function`; returns the value reached.
-pub fn refine(
-    space: &Space,
-    pose: &mut [f64],
-    steps: usize,
-    function: &mut dyn FnMut(&[f64], &mut Local),
-) -> f64 {
+pub fn refine(space: &Space, pose: &mut [f64], steps: usize, function: &mut dyn FnMut(&[f64], &mut Local)) -> f64 {
     let d = pose.len();
     let mut here = Local::new(d);
     let mut there = Local::new(d);
