@@ -2,7 +2,7 @@
 
 use crate::framework::execution::{Iet, IetState, Problem, ProblemError, Progress, RunResult, simulate};
 use crate::framework::robot::Chain;
-use crate::framework::world::{self, World};
+use crate::framework::world::World;
 
 /// One run in its world.
 pub struct Simulation {
@@ -16,7 +16,7 @@ impl Simulation {
     /// # Errors
     /// [`ProblemError`] says what is wrong with the problem.
     pub fn start(problem: &Problem, seed: u64) -> Result<Self, ProblemError> {
-        Self::with(problem, Iet::new(problem, seed)?)
+        Self::with(Iet::new(problem, seed)?)
     }
 
     /// A run from where it was saved.
@@ -24,10 +24,10 @@ impl Simulation {
     /// # Errors
     /// [`ProblemError`] when the state is not one of this problem.
     pub fn resume(problem: &Problem, state: IetState) -> Result<Self, ProblemError> {
-        Self::with(problem, Iet::resume(problem, state)?)
+        Self::with(Iet::resume(problem, state)?)
     }
 
-    fn with(problem: &Problem, iet: Iet) -> Result<Self, ProblemError> {
+    fn with(iet: Iet) -> Result<Self, ProblemError> {
         let world = iet.world()?;
         Ok(Self { iet, world })
     }

@@ -17,6 +17,8 @@ pub mod refine;
 pub mod search;
 pub mod sobol;
 pub mod space;
+#[cfg(test)]
+mod tests;
 
 pub use cover::CoverSpec;
 pub use model::{ModelIet, ModelSpec, Prior};
