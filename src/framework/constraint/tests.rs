@@ -60,11 +60,20 @@ fn problem(method: &str, constraint: ConstraintSpec, handling: HandlingSpec) -> 
         MethodSpec::Pso(spec) => spec.swarm.population = 12,
         MethodSpec::FiPso(spec) => spec.swarm.population = 12,
         MethodSpec::AffgPso(spec) => spec.swarm.population = 12,
+        MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {}
     }
     problem.execution.method = chosen;
     problem.execution.constraints = vec![constraint];
     problem.execution.handling = handling;
     problem
+}
+
+#[test]
+fn a_method_that_owns_the_run_takes_no_constraints() {
+    let region = serde_json::json!({"kind": "region", "geometry": {"shape": "sphere", "center_m": [0.5, 0, 0], "radius_m": 0.4}});
+    let constrained = problem("model", serde_json::from_value(region).unwrap(), HandlingSpec::default());
+    let error = Iet::new(&constrained, 1).err().unwrap().to_string();
+    assert_eq!(error, "method model needs a problem without constraints");
 }
 
 /// All that was executed, by goal, until the run ended or `most` executions.
@@ -84,11 +93,11 @@ fn executed(problem: &Problem, seed: u64, most: usize) -> (Vec<Vec<Vec<f64>>>, R
             all.last_mut().unwrap().push(joints.to_vec());
             count += 1;
         }
-        let goals = iet.prefix().len();
+        let goals = iet.prefix().count();
         if let Err(error) = iet.tell(&observations) {
             return (all, Err(error));
         }
-        if iet.prefix().len() > goals {
+        if iet.prefix().count() > goals {
             all.push(Vec::new());
         }
     }

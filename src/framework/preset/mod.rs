@@ -193,7 +193,10 @@ mod tests {
                 assert_eq!(Iet::new(&preset.problem, 1).is_ok(), fits, "{name} {method}");
                 let is_default = preset.problem.execution.method == MethodSpec::by_name(method).unwrap();
                 let is_published = !preset.problem.execution.method.owns_the_run();
-                assert!(!(is_published && name.starts_with("paper-") && is_default), "{name} {method}: the paper's parameters");
+                assert!(
+                    !(is_published && name.starts_with("paper-") && is_default),
+                    "{name} {method}: the paper's parameters"
+                );
             }
         }
         assert!(!shipped("wax").unwrap().select_method("annealing"));
