@@ -78,7 +78,7 @@ impl App {
     pub(super) async fn resolve(&self, request: CreateJob) -> Result<Resolved, AppError> {
         match request {
             CreateJob::Generalization(request) => self.resolve_generalization(request).await,
-            CreateJob::Execution(request) => self.resolve_execution(request).await,
+            CreateJob::Execution(request) => self.resolve_execution(*request).await,
             CreateJob::Experiment(request) => {
                 let (request, plan) = self.plan_experiment(request).await?;
                 Ok(self.resolved_experiment(plan.name.clone(), CreateJob::Experiment(request), plan))
@@ -164,7 +164,7 @@ impl App {
             repetitions: request.repetitions,
             max_evaluations_per_s: request.max_evaluations_per_s,
         };
-        Ok(Resolved::new(name, CreateJob::Execution(request), Work::Execution(Box::new(work))))
+        Ok(Resolved::new(name, CreateJob::Execution(Box::new(request)), Work::Execution(Box::new(work))))
     }
 }
 

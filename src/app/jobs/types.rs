@@ -43,7 +43,7 @@ pub enum CreateJob {
     /// Makes an action of demonstrations.
     Generalization(GeneralizationRequest),
     /// Executes an action on a robot.
-    Execution(ExecutionRequest),
+    Execution(Box<ExecutionRequest>),
     /// Runs many settings many times.
     Experiment(ExperimentRequest),
 }

@@ -160,5 +160,5 @@ async fn execute(
         repetitions: 1,
         max_evaluations_per_s: Some(scene.evaluations_per_s),
     };
-    app.create_job(CreateJob::Execution(request), None).await.map(drop)
+    app.create_job(CreateJob::Execution(Box::new(request)), None).await.map(drop)
 }

@@ -64,9 +64,9 @@ impl<'a> Belief<'a> {
             }
         }
         if prior.is_none() {
-            for o in 0..m {
-                average[o] = residuals.column(o).mean();
-                residuals.column_mut(o).add_scalar_mut(-average[o]);
+            for (mean, mut column) in average.iter_mut().zip(residuals.column_iter_mut()) {
+                *mean = column.mean();
+                column.add_scalar_mut(-*mean);
             }
         }
         let scale = if prior.is_some() {
@@ -118,12 +118,12 @@ impl<'a> Belief<'a> {
         self.add_prior(pose);
         if let Some(prior) = self.prior.as_deref_mut() {
             self.moved.copy_from_slice(pose);
-            for j in 0..d {
-                self.moved[j] = pose[j] + DIFFERENCE;
+            for (j, &joint) in pose.iter().enumerate() {
+                self.moved[j] = joint + DIFFERENCE;
                 prior.predict(&self.moved, &mut self.ahead);
-                self.moved[j] = pose[j] - DIFFERENCE;
+                self.moved[j] = joint - DIFFERENCE;
                 prior.predict(&self.moved, &mut self.behind);
-                self.moved[j] = pose[j];
+                self.moved[j] = joint;
                 for o in 0..m {
                     self.jacobian[o * d + j] += (self.ahead[o] - self.behind[o]) / (2.0 * DIFFERENCE);
                 }

@@ -118,8 +118,8 @@ impl Poses {
         scratch.factor.resize(d, 0.0);
         scratch.slope.resize(d, 0.0);
         for (i, row) in self.rows.chunks_exact(d).enumerate() {
-            for j in 0..d {
-                let (x, y) = (scratch.at[j], row[j]);
+            for (j, &y) in row.iter().enumerate() {
+                let x = scratch.at[j];
                 let (factor, slope) = match kernel {
                     Kernel::Trig(h) if self.revolute[j] => {
                         let cos = x[1] * y[1] + x[2] * y[2];

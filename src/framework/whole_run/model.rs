@@ -83,6 +83,9 @@ struct Start {
     variance: f64,
 }
 
+/// Says whether a pose (rad or m) may be proposed.
+pub type Admissible = Box<dyn Fn(&[f64]) -> bool + Send>;
+
 /// A run of MODEL-IET.
 pub struct ModelIet {
     spec: ModelSpec,
@@ -93,7 +96,7 @@ pub struct ModelIet {
     earlier: Vec<Trial>,
     log: Vec<Trial>,
     seed: u64,
-    admissible: Option<Box<dyn Fn(&[f64]) -> bool + Send>>,
+    admissible: Option<Admissible>,
 }
 
 impl ModelIet {
@@ -129,7 +132,7 @@ impl ModelIet {
 
     /// With a test that a pose must pass before it is proposed.
     #[must_use]
-    pub fn with_admissible(mut self, admissible: Box<dyn Fn(&[f64]) -> bool + Send>) -> Self {
+    pub fn with_admissible(mut self, admissible: Admissible) -> Self {
         self.admissible = Some(admissible);
         self
     }
@@ -186,7 +189,7 @@ impl ModelIet {
                 if start < UNIFORM_STARTS {
                     self.space.uniform(random, &mut pose);
                 } else {
-                    let spread = LOCAL_SPREAD * 0.5_f64.powi((start / 200) as i32 - 3);
+                    let spread = LOCAL_SPREAD * 0.5_f64.powf((start / 200) as f64 - 3.0);
                     let centre = best.1.clone();
                     self.space.near(&centre, spread, random, &mut pose);
                 }
@@ -222,7 +225,7 @@ impl ModelIet {
     fn open_goals(&self, identification: usize, belief: &mut Belief) -> Vec<Open> {
         let mut open = Vec::with_capacity(self.goals.len());
         for index in 0..self.goals.len() {
-            let tries = self.log.iter().skip(identification).filter(|t| t.goal == index).count() as u32;
+            let tries = self.log.iter().skip(identification).filter(|t| t.goal == index).fold(0_u32, |n, _| n + 1);
             let (_, best) = self.best(index, belief);
             if best + self.spec.noise.min(0.1 * self.tolerance) > self.tolerance && tries < self.spec.max_tries {
                 let need = (0.25 * self.tolerance).max(0.02 * best);

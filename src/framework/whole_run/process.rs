@@ -70,6 +70,9 @@ struct Choice {
     alpha: DMatrix<f64>,
 }
 
+/// A factorised kernel matrix K, K^-1 R, ln det K and the fit R . K^-1 R.
+type Factorized = (Cholesky<f64, Dyn>, DMatrix<f64>, f64, f64);
+
 impl Process {
     /// Fits `residuals` (n x m) at `poses`; `scale` is s0 and `noise` the standard deviation s, features' unit.
     /// None when no kernel matrix could be factorised (poses that are not finite).
@@ -80,7 +83,7 @@ impl Process {
         let mut best: Option<Choice> = None;
         for (kernel, shape_prior) in family.members() {
             let correlation = DMatrix::from_fn(n, n, |a, b| poses.between(kernel, a, b));
-            let mut shared: Option<(Cholesky<f64, Dyn>, DMatrix<f64>, f64, f64)> = None;
+            let mut shared: Option<Factorized> = None;
             for c in AMPLITUDES {
                 let variance = (c * scale).powi(2).max(f64::MIN_POSITIVE);
                 if noise > 0.0 || shared.is_none() {

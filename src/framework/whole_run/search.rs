@@ -66,7 +66,7 @@ impl SearchIet {
     fn find_near(&mut self) {
         let ball = |z: &Vec<f64>, x: &Vec<f64>| self.ball(self.squared(z, x));
         let row = |z: &Vec<f64>| {
-            let all = self.poses.iter().enumerate().map(|(x, pose)| (x as u32, ball(z, pose)));
+            let all = (0_u32..).zip(&self.poses).map(|(x, pose)| (x, ball(z, pose)));
             all.filter(|(_, b)| *b > 0.0).collect::<Vec<_>>()
         };
         self.near = self.poses.iter().map(row).collect();

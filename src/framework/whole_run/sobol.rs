@@ -23,15 +23,15 @@ const BITS: u32 = 32;
 fn directions(dimension: usize) -> Option<[u32; 32]> {
     let mut v = [0_u32; 32];
     if dimension == 0 {
-        for (bit, value) in v.iter_mut().enumerate() {
-            *value = 1 << (BITS - 1 - bit as u32);
+        for (bit, value) in (0..BITS).zip(&mut v) {
+            *value = 1 << (BITS - 1 - bit);
         }
         return Some(v);
     }
     let &(degree, coefficients, initial) = PRIMITIVE.get(dimension - 1)?;
     let s = degree as usize;
-    for (bit, &m) in initial.iter().enumerate() {
-        v[bit] = m << (BITS - 1 - bit as u32);
+    for ((bit, value), &m) in (0..BITS).zip(&mut v).zip(initial) {
+        *value = m << (BITS - 1 - bit);
     }
     for bit in s..32 {
         v[bit] = v[bit - s] ^ (v[bit - s] >> degree);

@@ -47,7 +47,9 @@ fn the_process_goes_through_its_data_and_is_unsure_elsewhere() {
     let space = Space { axes: vec![axis(true), axis(true)] };
     let mut poses = Poses::new(&space);
     let data = [[0.0, 0.0], [0.8, -0.5], [-0.7, 1.0]];
-    data.iter().for_each(|q| poses.push(q));
+    for q in &data {
+        poses.push(q);
+    }
     let residuals = DMatrix::from_row_slice(3, 2, &[1.0, -2.0, 3.0, 0.5, -4.0, 1.0]);
     let mut process = Process::fit(poses, &residuals, Family::Trig, 3.0, 0.0).unwrap();
     let mut mean = [0.0; 2];

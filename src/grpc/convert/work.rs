@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub fn work(work: Option<proto::Work>) -> Result<CreateJob, AppError> {
     match required("/kind", work.and_then(|work| work.kind))? {
         Kind::Generalization(work) => generalization(work).map(CreateJob::Generalization),
-        Kind::Execution(work) => execution(work).map(CreateJob::Execution),
+        Kind::Execution(work) => execution(work).map(|work| CreateJob::Execution(Box::new(work))),
         Kind::ExperimentJson(json) => document("/experiment_json", &json).map(CreateJob::Experiment),
     }
 }
@@ -124,7 +124,7 @@ impl From<CreateJob> for proto::Work {
     fn from(work: CreateJob) -> Self {
         let kind = match work {
             CreateJob::Generalization(work) => Kind::Generalization(work.into()),
-            CreateJob::Execution(work) => Kind::Execution(work.into()),
+            CreateJob::Execution(work) => Kind::Execution((*work).into()),
             CreateJob::Experiment(work) => Kind::ExperimentJson(json(&work)),
         };
         Self { kind: Some(kind) }
