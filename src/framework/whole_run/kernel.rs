@@ -2,7 +2,7 @@
 //!
 //! TRIG: `k = prod_i (1 + h cos dq_i) / (1 + h)`; its functions are those multilinear in 1, cos q_i and sin q_i, which
 //! is what the position of a point on a chain of revolute joints is. SE: `k = prod_i exp(-dq_i^2 / 2 h^2)`. Prismatic
-//! joints always take the SE factor, a stroke counted as pi radians, under TRIG with the length [`STROKE_LENGTH`].
+//! joints always take the SE factor, a stroke counted as pi radians, under TRIG with a length of 2.5 rad.
 
 use super::space::Space;
 use serde::{Deserialize, Serialize};
