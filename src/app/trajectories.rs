@@ -64,7 +64,7 @@ pub struct TrajectoryPoint {
 /// # Errors
 /// Why there is no such trajectory.
 pub fn plan_through(chain: &Chain, waypoints: &[Vec<f64>]) -> Result<CheckedTrajectory, String> {
-    plan(chain, &chain.home(), waypoints, &PlanSpec::default()).map_err(|error| error.to_string())
+    plan(chain, chain.home(), waypoints, &PlanSpec::default()).map_err(|error| error.to_string())
 }
 
 /// SHA-256 over the points' numbers, little-endian, hexadecimal.

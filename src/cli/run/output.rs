@@ -137,7 +137,7 @@ pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[RunRe
     let chain = Chain::new(&RobotModel::from_urdf(&named.problem.urdf)?, &named.problem.robot)?;
     let mut refused = 0;
     for run in runs {
-        let trajectory = match plan(&chain, &chain.home(), &run.waypoints(), &PlanSpec::default()) {
+        let trajectory = match plan(&chain, chain.home(), &run.waypoints(), &PlanSpec::default()) {
             Ok(trajectory) => trajectory,
             Err(error) => {
                 eprintln!("no trajectory for seed {}: {error}", run.seed);

@@ -6,7 +6,7 @@ use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
 use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
-use crate::framework::robot::{Chain, JointKind};
+use crate::framework::robot::{Chain, Gene, JointKind};
 use crate::framework::whole_run::{
     Axis, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space, Trial, WholeRun,
 };
@@ -134,7 +134,7 @@ fn coverage<'a>(setup: &'a Setup, method: &'static str) -> Result<&'a CoverageSp
 
 fn space(chain: &Chain) -> Space {
     let joints = chain.genes().iter().zip(chain.home());
-    let axis = |(gene, home): (&crate::framework::robot::Gene, f64)| Axis {
+    let axis = |(gene, &home): (&Gene, &f64)| Axis {
         lower: gene.lower,
         upper: gene.upper,
         home,

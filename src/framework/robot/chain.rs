@@ -58,6 +58,7 @@ pub struct Chain {
     pub(super) tool: Isometry3<f64>,
     followers: Vec<(String, usize, f64, f64)>,
     fixed: Vec<(String, f64)>,
+    home: Vec<f64>,
 }
 
 impl Chain {
@@ -91,6 +92,7 @@ impl Chain {
             let expected = "give metres, at most 1e6 either way";
             return Err(ChainError::Value { role: "tool_offset_m", joint, value, expected });
         }
+        let home = home(spec, &genes)?;
         let mut chain = Self {
             base_link: model.links()[base].clone(),
             tip_link: model.links()[tip].clone(),
@@ -99,6 +101,7 @@ impl Chain {
             tool: Isometry3::identity(),
             followers: Vec::new(),
             fixed: Vec::new(),
+            home,
         };
         chain.fold(model, &path, &free, &held);
         chain.tool *= Translation3::from(spec.tool_offset_m);
@@ -185,10 +188,10 @@ impl Chain {
         free.chain(follow).chain(self.fixed.iter().cloned()).collect()
     }
 
-    /// The home pose: 0 for each free joint, moved into its limits.
+    /// The home pose (n values, rad or m): as described, else 0 moved into the limits.
     #[must_use]
-    pub fn home(&self) -> Vec<f64> {
-        self.genes.iter().map(|g| 0.0_f64.clamp(g.lower, g.upper)).collect()
+    pub fn home(&self) -> &[f64] {
+        &self.home
     }
 }
 
@@ -308,6 +311,22 @@ fn held_value(model: &RobotModel, spec: &RobotSpec, joint: usize) -> Result<f64,
         }
         _ => Ok(value),
     }
+}
+
+fn home(spec: &RobotSpec, genes: &[Gene]) -> Result<Vec<f64>, ChainError> {
+    if let Some(joint) = spec.home.keys().find(|name| genes.iter().all(|g| g.name != **name)) {
+        let movable = genes.iter().map(|g| g.name.clone()).collect();
+        return Err(ChainError::UnknownJoint { role: "home", joint: joint.clone(), movable });
+    }
+    let of = |gene: &Gene| {
+        let Some(&value) = spec.home.get(&gene.name) else { return Ok(0.0_f64.clamp(gene.lower, gene.upper)) };
+        if (gene.lower..=gene.upper).contains(&value) {
+            return Ok(value);
+        }
+        let (joint, lower, upper) = (gene.name.clone(), gene.lower, gene.upper);
+        Err(ChainError::HomeOutside { joint, value, lower, upper })
+    };
+    genes.iter().map(of).collect()
 }
 
 fn gene(model: &RobotModel, spec: &RobotSpec, path: &[usize], index: usize) -> Result<Gene, ChainError> {

@@ -208,7 +208,7 @@ pub enum ChainError {
     /// A name in the description that moves nothing here.
     #[error("{role} names joint {joint:?}, which does not move this chain; movable joints are {movable:?}")]
     UnknownJoint {
-        /// `free_joints`, `fixed`, `limits` or `acceleration`.
+        /// `free_joints`, `fixed`, `limits`, `acceleration` or `home`.
         role: &'static str,
         /// The name given.
         joint: String,
@@ -250,6 +250,18 @@ pub enum ChainError {
     /// A fixed value outside the limits.
     #[error("fixed value {value} of joint {joint:?} is outside its limits {lower} to {upper}")]
     FixedOutside {
+        /// The joint.
+        joint: String,
+        /// The value given.
+        value: f64,
+        /// Lower limit.
+        lower: f64,
+        /// Upper limit.
+        upper: f64,
+    },
+    /// A home outside the limits, or not a number.
+    #[error("home {value} of joint {joint:?} is outside its limits {lower} to {upper}: give a value within them")]
+    HomeOutside {
         /// The joint.
         joint: String,
         /// The value given.

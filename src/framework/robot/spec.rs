@@ -23,4 +23,8 @@ pub struct RobotSpec {
     pub limits: BTreeMap<String, [f64; 2]>,
     /// Acceleration limits (rad/s^2 or m/s^2) by joint: a URDF carries none.
     pub acceleration: BTreeMap<String, f64>,
+    /// Where free joints stand before the first motion (rad or m), by joint: trajectories start there, and so do the
+    /// moves by which an unknown robot is identified. Those not named stand at 0, moved into their limits.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub home: BTreeMap<String, f64>,
 }

@@ -216,6 +216,14 @@ fn refuses_more_links_than_allowed() {
     RobotSpec { limits: BTreeMap::from([("slant".into(), [-1e308, 1e308])]), ..RobotSpec::default() },
     "limits of joint \"slant\" is -1e308"
 )]
+#[case::home(
+    RobotSpec { home: BTreeMap::from([("slant".into(), 9.0)]), ..RobotSpec::default() },
+    "home 9 of joint \"slant\" is outside its limits"
+)]
+#[case::home_of_nothing(
+    RobotSpec { home: BTreeMap::from([("bolt".into(), 0.0)]), ..RobotSpec::default() },
+    "home names joint \"bolt\""
+)]
 #[case::far_tool(RobotSpec { tool_offset_m: [0.0, 1e308, 0.0], ..RobotSpec::default() }, "is 1e308: give metres")]
 #[case::acceleration(
     RobotSpec { acceleration: BTreeMap::from([("slant".into(), 0.0)]), ..RobotSpec::default() },
@@ -251,5 +259,16 @@ fn the_whole_humanoid_loads_and_its_arm_moves() {
     let spec = RobotSpec { tip_link: Some("r_wrist_pitch_link".into()), ..RobotSpec::default() };
     let chain = Chain::new(&model, &spec).unwrap();
     assert_eq!((chain.base_link(), chain.len()), ("waist", 8));
-    assert!(tool_position(&chain, &chain.home()).iter().all(|v| v.is_finite()));
+    assert!(tool_position(&chain, chain.home()).iter().all(|v| v.is_finite()));
+}
+
+#[test]
+fn home_is_as_described_and_otherwise_0_moved_into_the_limits() {
+    let model = RobotModel::from_urdf(&all_kinds_urdf()).unwrap();
+    let joint = Chain::new(&model, &RobotSpec::default()).unwrap().genes()[0].name.clone();
+    let limits = BTreeMap::from([(joint.clone(), [0.25, 0.75])]);
+    let near_zero = RobotSpec { limits: limits.clone(), ..RobotSpec::default() };
+    assert_eq!(Chain::new(&model, &near_zero).unwrap().home()[0].to_bits(), 0.25_f64.to_bits());
+    let described = RobotSpec { limits, home: BTreeMap::from([(joint, 0.5)]), ..RobotSpec::default() };
+    assert_eq!(Chain::new(&model, &described).unwrap().home()[0].to_bits(), 0.5_f64.to_bits());
 }

@@ -19,7 +19,7 @@ proptest! {
     fn plans_pass_their_waypoints_at_rest_within_the_limits(waypoints in poses(), speed in 0.1..1.0_f64) {
         let chain = arm();
         let spec = PlanSpec { speed, ..PlanSpec::default() };
-        let trajectory = plan(&chain, &chain.home(), &waypoints, &spec).unwrap();
+        let trajectory = plan(&chain, chain.home(), &waypoints, &spec).unwrap();
         let reached: Vec<&Point> = trajectory.points().iter().filter(|p| p.waypoint.is_some()).collect();
         prop_assert_eq!(reached.len(), waypoints.len());
         for (point, waypoint) in reached.iter().zip(&waypoints) {
@@ -81,7 +81,7 @@ fn refuses_shapes_and_parameters() {
 fn assumed_limits_are_noted() {
     let urdf = shipped("wax").unwrap().problem.urdf.replace(r#" velocity="3""#, "");
     let chain = Chain::new(&RobotModel::from_urdf(&urdf).unwrap(), &RobotSpec::default()).unwrap();
-    let trajectory = plan(&chain, &chain.home(), &[vec![0.1; 6]], &PlanSpec::default()).unwrap();
+    let trajectory = plan(&chain, chain.home(), &[vec![0.1; 6]], &PlanSpec::default()).unwrap();
     assert_eq!(trajectory.notes().len(), 12);
     assert!(trajectory.notes()[0].contains("no velocity limit: 0.5 rad/s assumed"), "{:?}", trajectory.notes());
 }
@@ -98,7 +98,7 @@ fn standing_still_is_a_trajectory() {
 fn exports_hold_every_sample() {
     let chain = arm();
     let waypoints = vec![vec![0.3, 0.1, 0.4], vec![0.0, 0.5, 1.0]];
-    let trajectory = plan(&chain, &chain.home(), &waypoints, &PlanSpec::default()).unwrap();
+    let trajectory = plan(&chain, chain.home(), &waypoints, &PlanSpec::default()).unwrap();
     let csv = export::csv(&trajectory);
     assert_eq!(csv.lines().count(), trajectory.points().len() + 1);
     assert!(csv.starts_with("time_s,shoulder_pitch_position,shoulder_roll_position,elbow_pitch_position,"));

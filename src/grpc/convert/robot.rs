@@ -31,6 +31,7 @@ fn spec(spec: proto::RobotSpec) -> Result<RobotSpec, AppError> {
         },
         limits,
         acceleration: values("/spec/acceleration", spec.acceleration)?,
+        home: values("/spec/home", spec.home)?,
     })
 }
 
@@ -50,6 +51,7 @@ impl From<RobotSpec> for proto::RobotSpec {
             tool_offset_m: spec.tool_offset_m.to_vec(),
             limits: limits.map(|(joint, [lower, upper])| (joint, proto::JointLimits { lower, upper })).collect(),
             acceleration: spec.acceleration,
+            home: spec.home,
         }
     }
 }
@@ -105,6 +107,7 @@ mod tests {
             tool_offset_m: [0.0, 0.1, -0.2],
             limits: BTreeMap::from([("a".to_owned(), [-1.0, 2.0])]),
             acceleration: BTreeMap::from([("a".to_owned(), 3.0)]),
+            home: BTreeMap::from([("b".to_owned(), 0.4)]),
         };
         for before in [full, RobotSpec::default()] {
             assert_eq!(spec(before.clone().into()).unwrap(), before);
