@@ -8,18 +8,12 @@
 
 use super::error::ConstraintError;
 use super::hull;
+use super::plane::Plane;
 use super::spec::GeometrySpec;
 use nalgebra::Vector3;
 
 /// Smallest violation reported, m (or rad): a point on the boundary violates by this much.
 pub(super) const LEAST_VIOLATION: f64 = 1e-12;
-
-/// An open half-space `normal . p < offset`, unit normal.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Plane {
-    pub normal: Vector3<f64>,
-    pub offset_m: f64,
-}
 
 /// A convex open region.
 #[derive(Debug, Clone, PartialEq)]

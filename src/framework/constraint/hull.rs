@@ -5,7 +5,7 @@
 //! wrong. A quickhull (parry's) would be faster on thousands of points, which no hand-written constraint has.
 
 use super::error::ConstraintError;
-use super::geometry::Plane;
+use super::plane::Plane;
 use nalgebra::Vector3;
 
 /// Most points of a hull.

@@ -12,6 +12,7 @@ mod fixtures;
 mod geometry;
 mod hull;
 mod penalty;
+mod plane;
 mod point;
 mod set;
 mod spec;

@@ -1,0 +1,10 @@
+//! The boundary of a convex region: what geometries are made of and hulls are found as.
+
+use nalgebra::Vector3;
+
+/// An open half-space `normal . p < offset`, unit normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Plane {
+    pub normal: Vector3<f64>,
+    pub offset_m: f64,
+}
