@@ -144,8 +144,14 @@ impl App {
             return Err(AppError::invalid(errors));
         };
         let goals = Goals::new(goals.features, &goals.goals).map_err(AppError::internal)?;
-        let problem =
-            Problem { goals, urdf, robot: robot.spec, world: world.spec, execution: request.execution.clone() };
+        let problem = Problem {
+            goals,
+            urdf,
+            robot: robot.spec,
+            world: world.spec,
+            execution: request.execution.clone(),
+            earlier: Vec::new(),
+        };
         let seed = request.seed.unwrap_or_else(|| self.ports.ids.seed());
         let problem = compute(move || match Iet::new(&problem, seed) {
             Ok(_) => Ok(problem),

@@ -179,7 +179,7 @@ fn from_demonstrations(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
     Ok(Preset {
         name: "demonstrations".to_owned(),
         description: format!("{} goals from {count} demonstrations", generalized.goals.len()),
-        problem: Problem { goals: generalized.goals, urdf, robot, world, execution },
+        problem: Problem { goals: generalized.goals, urdf, robot, world, execution, earlier: Vec::new() },
         methods: Vec::new(),
     })
 }

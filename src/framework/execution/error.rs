@@ -77,6 +77,21 @@ pub enum ProblemError {
         /// Number needed.
         expected: usize,
     },
+    /// A trial of another robot, or of other features, among the earlier ones.
+    #[error(
+        "earlier trial {trial} has {found} {what}, the problem has {expected}: give trials of the same robot and \
+         features, or none"
+    )]
+    Earlier {
+        /// Its index from 0.
+        trial: usize,
+        /// What does not fit.
+        what: &'static str,
+        /// Number found.
+        found: usize,
+        /// Number needed.
+        expected: usize,
+    },
     /// Every trial of a goal failed.
     #[error("goal {goal}: none of {failures} trials could be executed; check the robot and its limits")]
     NothingExecuted {

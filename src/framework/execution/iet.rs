@@ -20,7 +20,7 @@ use super::state::{GoalState, IetState, STATE_VERSION};
 use crate::framework::constraint::Proposal;
 use crate::framework::optimizer::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
 use crate::framework::robot::Chain;
-use crate::framework::whole_run::Proposal as Next;
+use crate::framework::whole_run::{Proposal as Next, Trial};
 use crate::framework::world::{self, World};
 
 /// The candidate by which a winner that was never executed is executed.
@@ -128,7 +128,7 @@ impl Iet {
             goal: self.goal.clone(),
             painted: self.painted,
             optimizer: self.optimizer.as_ref().map(|o| o.state()),
-            log: self.owner.as_ref().map_or_else(Vec::new, |o| o.log().to_vec()),
+            log: self.log().to_vec(),
         }
     }
 
@@ -162,6 +162,12 @@ impl Iet {
         let owned = self.owner.iter().flat_map(Owner::prefix);
         let results = if self.owner.is_some() { &[] } else { self.results.as_slice() };
         owned.chain(results.iter().map(|r| r.joints.as_slice()))
+    }
+
+    /// Every trial so far of a method that owns the run: what a later run on the same robot may begin with.
+    #[must_use]
+    pub fn log(&self) -> &[Trial] {
+        self.owner.as_ref().map_or(&[], Owner::log)
     }
 
     /// Whether every goal has ended.

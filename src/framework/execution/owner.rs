@@ -102,7 +102,8 @@ fn method(setup: &Setup, seed: u64) -> Result<Option<Box<dyn WholeRun>>, Problem
         MethodSpec::Sst(_) | MethodSpec::Pso(_) | MethodSpec::FiPso(_) | MethodSpec::AffgPso(_) => return Ok(None),
         MethodSpec::Model(spec) => {
             let tolerance = setup.spec.tolerance.unwrap_or_else(|| TOLERANCE_SHARE * extent(&goals));
-            let mut run = ModelIet::new(spec.clone(), tolerance, space, goals, seed);
+            let mut run =
+                ModelIet::new(spec.clone(), tolerance, space, goals, seed).with_earlier(setup.earlier.clone());
             if spec.prior == Prior::Simulator {
                 run = run.with_prior(Box::new(Simulated::new(setup)?));
             }

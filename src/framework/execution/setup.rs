@@ -7,6 +7,7 @@ use crate::framework::constraint::{Constrained, ConstraintError, Constraints, Ru
 use crate::framework::generalization::Goals;
 use crate::framework::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
 use crate::framework::robot::{Chain, RobotModel};
+use crate::framework::whole_run::Trial;
 use crate::framework::world::{self, WorldSpec};
 use std::sync::Arc;
 
@@ -23,6 +24,8 @@ pub(super) struct Setup {
     /// Index of the painted percentage among the world's features, in coverage worlds.
     pub painted: Option<usize>,
     pub constraints: Arc<Constraints>,
+    /// Trials of earlier runs on the same robot.
+    pub earlier: Vec<Trial>,
 }
 
 impl Setup {
@@ -48,6 +51,7 @@ impl Setup {
             }
             select.push(index);
         }
+        check_earlier(&problem.earlier, chain.len(), select.len())?;
         Ok(Self {
             goals: problem.goals.clone(),
             chain,
@@ -57,6 +61,7 @@ impl Setup {
             world_features: shown.len(),
             painted: matches!(problem.world, WorldSpec::Coverage(_)).then_some(0),
             constraints: Arc::new(constraints),
+            earlier: problem.earlier.clone(),
         })
     }
 
@@ -124,6 +129,23 @@ fn mix(word: u64) -> u64 {
     let word = (word ^ (word >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let word = (word ^ (word >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     word ^ (word >> 31)
+}
+
+/// Whether every earlier trial is one of a robot with that many genes, seen through m features.
+fn check_earlier(earlier: &[Trial], genes: usize, features: usize) -> Result<(), ProblemError> {
+    for (trial, Trial { joints, observation, .. }) in earlier.iter().enumerate() {
+        let wrong = |what, found, expected| Err(ProblemError::Earlier { trial, what, found, expected });
+        let finite = |values: &[f64]| values.iter().filter(|v| v.is_finite()).count();
+        if joints.len() != genes || finite(joints) != genes {
+            return wrong("finite joints", finite(joints), genes);
+        }
+        if let Some(seen) = observation
+            && (seen.len() != features || finite(seen) != features)
+        {
+            return wrong("finite features", finite(seen), features);
+        }
+    }
+    Ok(())
 }
 
 fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {

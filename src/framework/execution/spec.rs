@@ -5,6 +5,7 @@ use crate::framework::generalization::Goals;
 use crate::framework::optimizer::MethodSpec;
 use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;
+use crate::framework::whole_run::Trial;
 use crate::framework::world::{RealitySpec, WorldSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -23,6 +24,9 @@ pub struct Problem {
     pub world: WorldSpec,
     /// How to search.
     pub execution: ExecutionSpec,
+    /// Trials of earlier runs on the same robot, features in the goals' order: a model begins with what they taught.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub earlier: Vec<Trial>,
 }
 
 /// How an execution searches and when a goal ends.

@@ -16,6 +16,7 @@ fn preset(name: &str) -> Option<Problem> {
         robot: RobotSpec::default(),
         world: WorldSpec::ToolPosition(ToolPositionSpec { unit: "mm".to_owned() }),
         execution: serde_json::from_value::<ExecutionSpec>(json!({"method": {"name": "sst"}})).unwrap(),
+        earlier: Vec::new(),
     })
 }
 

@@ -150,7 +150,14 @@ pub fn parse(
     Ok(Preset {
         name: name.to_owned(),
         description: raw.description,
-        problem: Problem { goals: raw.goals, urdf, robot: raw.robot.spec, world, execution: raw.execution },
+        problem: Problem {
+            goals: raw.goals,
+            urdf,
+            robot: raw.robot.spec,
+            world,
+            execution: raw.execution,
+            earlier: Vec::new(),
+        },
         methods: raw.methods,
     })
 }
