@@ -72,6 +72,30 @@ impl Constraints {
         self.0.is_empty()
     }
 
+    /// Whether the regions allow a pose (n joints, rad or m), wherever it is reached from.
+    #[must_use]
+    pub fn allows(&self, joints: &[f64]) -> bool {
+        let proposal = Proposal { joints, origins: [None; 2], previous: None };
+        let regions = self.0.iter().filter(|constraint| matches!(constraint, Constraint::Region { .. }));
+        regions.map(|region| region.violation(&proposal)).all(|violation| violation == 0.0)
+    }
+
+    /// The smallest step between goals (rad or m), with where the first one is counted from.
+    #[must_use]
+    pub fn joint_step(&self) -> Option<(f64, Option<&[f64]>)> {
+        let steps = self.0.iter().filter_map(|constraint| match constraint {
+            Constraint::JointStep { limit, start } => Some((*limit, start.as_deref())),
+            _ => None,
+        });
+        steps.reduce(|a, b| (a.0.min(b.0), a.1.or(b.1)))
+    }
+
+    /// Whether a constraint refers to the individuals a candidate was bred from.
+    #[must_use]
+    pub fn needs_a_population(&self) -> bool {
+        self.0.iter().any(|constraint| matches!(constraint, Constraint::PopulationVelocity { .. }))
+    }
+
     /// The violations of `proposal`, one a constraint in the order given; 0 where satisfied.
     pub fn violations(&self, proposal: &Proposal<'_>) -> impl Iterator<Item = f64> {
         self.0.iter().map(|constraint| constraint.violation(proposal))

@@ -68,14 +68,6 @@ fn problem(method: &str, constraint: ConstraintSpec, handling: HandlingSpec) -> 
     problem
 }
 
-#[test]
-fn a_method_that_owns_the_run_takes_no_constraints() {
-    let region = serde_json::json!({"kind": "region", "geometry": {"shape": "sphere", "center_m": [0.5, 0, 0], "radius_m": 0.4}});
-    let constrained = problem("model", serde_json::from_value(region).unwrap(), HandlingSpec::default());
-    let error = Iet::new(&constrained, 1).err().unwrap().to_string();
-    assert_eq!(error, "method model needs a problem without constraints");
-}
-
 /// All that was executed, by goal, until the run ended or `most` executions.
 fn executed(problem: &Problem, seed: u64, most: usize) -> (Vec<Vec<Vec<f64>>>, Result<(), ProblemError>) {
     let mut iet = Iet::new(problem, seed).unwrap();

@@ -250,7 +250,7 @@ impl Iet {
             }
         }
         if owner.next == Next::Finished && self.results.is_empty() {
-            self.results = owner.results(&mut self.discrepancy, observations.provenance())?;
+            self.results = owner.results(&self.setup, &mut self.discrepancy, observations.provenance())?;
             let goal = std::mem::take(&mut self.goal);
             self.painted = self.setup.painted.map(|_| goal.painted.unwrap_or(0.0));
         }

@@ -1,5 +1,7 @@
 //! IET, Incrementally Evolved Trajectories, as a state machine without I/O.
 
+#[cfg(test)]
+mod bounded_tests;
 mod discrepancy;
 mod error;
 mod iet;

@@ -5,12 +5,15 @@ use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
+use crate::framework::constraint::Proposal as Pose;
 use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
 use crate::framework::robot::{Chain, Gene, JointKind};
 use crate::framework::whole_run::{
-    Axis, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space, Trial, WholeRun,
+    Axis, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space, StepLimits,
+    Stepped, Targets, Trial, WholeRun,
 };
 use crate::framework::world::{self, CoverageSpec, World, WorldSpec};
+use std::sync::Arc;
 
 /// Share of the goals' extent that is near enough where no tolerance is given.
 const TOLERANCE_SHARE: f64 = 0.1;
@@ -58,12 +61,18 @@ impl Owner {
     /// The results of all goals, once the method has finished.
     pub fn results(
         &mut self,
+        setup: &Setup,
         discrepancy: &mut PartialDiscrepancy,
         provenance: Provenance,
     ) -> Result<Vec<GoalResult>, ProblemError> {
         let outcomes = self.method.outcomes();
         let log = self.method.log();
-        let mut results = Vec::with_capacity(outcomes.len());
+        if log.is_empty() && !setup.constraints.is_empty() {
+            let home = Pose { joints: setup.chain.home(), origins: [None; 2], previous: None };
+            let nearest = setup.constraints.violations(&home).collect();
+            return Err(ProblemError::Infeasible { goal: 0, nearest, evaluations: 0 });
+        }
+        let mut results: Vec<GoalResult> = Vec::with_capacity(outcomes.len());
         for (index, outcome) in outcomes.iter().enumerate() {
             let of_goal = |trial: &&Trial| trial.goal == index;
             let evaluations = log.iter().filter(of_goal).count() as u64;
@@ -72,6 +81,9 @@ impl Owner {
             let Some(trial) = outcome.trial.map(|t| &log[t]) else { return Err(nothing) };
             let Some(observation) = trial.observation.clone() else { return Err(nothing) };
             let value = discrepancy.of(&observation);
+            let previous = results.last().map(|result| result.joints.as_slice());
+            let pose = Pose { joints: &trial.joints, origins: [None; 2], previous };
+            let feasible = setup.constraints.is_feasible(&pose);
             discrepancy.append(&observation);
             results.push(GoalResult {
                 index,
@@ -83,7 +95,7 @@ impl Owner {
                 observation,
                 provenance,
                 true_discrepancy: None,
-                feasible: true,
+                feasible,
                 tally: match provenance {
                     Provenance::Real => Tally { real: evaluations, ..Tally::default() },
                     _ => Tally { simulated: evaluations, ..Tally::default() },
@@ -95,15 +107,46 @@ impl Owner {
     }
 }
 
+/// The method within what the constraints allow.
 fn method(setup: &Setup, seed: u64) -> Result<Option<Box<dyn WholeRun>>, ProblemError> {
     let goals: Vec<Vec<f64>> = setup.goals.rows().map(<[f64]>::to_vec).collect();
-    let space = space(&setup.chain);
+    let tolerance = setup.spec.tolerance.unwrap_or_else(|| TOLERANCE_SHARE * extent(&goals));
+    let space = space(setup);
+    let limits = step_limits(setup, &space);
+    let targets = Targets { goals, tolerance };
+    let Some(inner) = unbounded(setup, &space, targets.clone(), seed)? else { return Ok(None) };
+    Ok(Some(Box::new(Stepped::new(inner, space, limits, targets, seed))))
+}
+
+fn step_limits(setup: &Setup, space: &Space) -> StepLimits {
+    let between_goals = setup.constraints.joint_step();
+    let between_trials = setup.spec.method.max_step_deg().map(f64::to_radians);
+    let per_goal = between_goals.map(|(limit, _)| limit);
+    let least = |scale: f64| {
+        let per_trial = between_trials.map_or(f64::INFINITY, |step| step / scale);
+        per_trial.min(per_goal.unwrap_or(f64::INFINITY))
+    };
+    let start = between_goals.and_then(|(_, start)| start.map(<[f64]>::to_vec));
+    StepLimits {
+        per_trial: space.axes.iter().map(|axis| least(axis.scale())).collect(),
+        per_goal,
+        start: start.or_else(|| between_trials.map(|_| space.home())),
+        repeats: matches!(&setup.world, WorldSpec::Coverage(coverage) if coverage.resets),
+    }
+}
+
+fn unbounded(
+    setup: &Setup,
+    space: &Space,
+    targets: Targets,
+    seed: u64,
+) -> Result<Option<Box<dyn WholeRun>>, ProblemError> {
+    let Targets { goals, tolerance } = targets;
     Ok(Some(match &setup.spec.method {
         MethodSpec::Sst(_) | MethodSpec::Pso(_) | MethodSpec::FiPso(_) | MethodSpec::AffgPso(_) => return Ok(None),
         MethodSpec::Model(spec) => {
-            let tolerance = setup.spec.tolerance.unwrap_or_else(|| TOLERANCE_SHARE * extent(&goals));
-            let mut run =
-                ModelIet::new(spec.clone(), tolerance, space, goals, seed).with_earlier(setup.earlier.clone());
+            let run = ModelIet::new(spec.clone(), tolerance, space.clone(), goals, seed);
+            let mut run = run.with_earlier(setup.earlier.clone());
             if spec.prior == Prior::Simulator {
                 run = run.with_prior(Box::new(Simulated::new(setup)?));
             }
@@ -111,15 +154,15 @@ fn method(setup: &Setup, seed: u64) -> Result<Option<Box<dyn WholeRun>>, Problem
         }
         MethodSpec::Search(spec) => {
             let coverage = coverage(setup, "search")?;
-            Box::new(SearchIet::new(spec.clone(), coverage.resets, &space, &goals, seed))
+            Box::new(SearchIet::new(spec.clone(), coverage.resets, space, &goals, seed))
         }
         MethodSpec::Particle(spec) => {
             let coverage = coverage(setup, "particle")?.clone();
-            let limit = CoverSpec { max_evaluations: spec.max_evaluations };
+            let limit = CoverSpec { max_evaluations: spec.max_evaluations, max_step_deg: None };
             let resets = coverage.resets;
             let world = WorldSpec::Coverage(coverage);
             let simulator = Uncertain { chain: setup.chain.clone(), world, spec: spec.clone() };
-            Box::new(ParticleIet::new(limit, resets, space, &goals, Box::new(simulator), seed))
+            Box::new(ParticleIet::new(limit, resets, space.clone(), &goals, Box::new(simulator), seed))
         }
     }))
 }
@@ -133,7 +176,8 @@ fn coverage<'a>(setup: &'a Setup, method: &'static str) -> Result<&'a CoverageSp
     }
 }
 
-fn space(chain: &Chain) -> Space {
+fn space(setup: &Setup) -> Space {
+    let chain = &setup.chain;
     let joints = chain.genes().iter().zip(chain.home());
     let axis = |(gene, &home): (&Gene, &f64)| Axis {
         lower: gene.lower,
@@ -141,7 +185,12 @@ fn space(chain: &Chain) -> Space {
         home,
         revolute: gene.kind != JointKind::Prismatic,
     };
-    Space { axes: joints.map(axis).collect() }
+    let space = Space::new(joints.map(axis).collect());
+    if setup.constraints.is_empty() {
+        return space;
+    }
+    let constraints = Arc::clone(&setup.constraints);
+    space.only(Arc::new(move |pose| constraints.allows(pose)))
 }
 
 /// Diagonal of the box around the goals, features' unit; 1 where all goals are one.

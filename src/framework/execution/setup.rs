@@ -3,7 +3,7 @@
 use super::error::ProblemError;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
-use crate::framework::constraint::{Constrained, ConstraintError, Constraints, Rules};
+use crate::framework::constraint::{Constrained, ConstraintError, Constraints, HandlingSpec, Rules};
 use crate::framework::generalization::Goals;
 use crate::framework::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
 use crate::framework::robot::{Chain, RobotModel};
@@ -34,6 +34,10 @@ impl Setup {
         let model = RobotModel::from_urdf(&problem.urdf)?;
         let chain = Chain::new(&model, &problem.robot)?;
         let constraints = Constraints::new(&problem.execution.constraints, &model, &problem.robot, &chain)?;
+        if problem.execution.method.owns_the_run() && constraints.needs_a_population() {
+            let expected = "constraints without population_velocity, for it breeds no population: take joint_step";
+            return Err(ProblemError::Method { method: problem.execution.method.name(), expected });
+        }
         world::build(&problem.world, &chain)?;
         let shown = world::features(&problem.world)?;
         let mut select = Vec::with_capacity(problem.goals.features().len());
@@ -168,8 +172,12 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
         | MethodSpec::Particle(_)
         | MethodSpec::Search(_) => false,
     };
-    if spec.method.owns_the_run() && !spec.constraints.is_empty() {
-        return Err(ProblemError::Method { method: spec.method.name(), expected: "a problem without constraints" });
+    if spec.method.owns_the_run() && !matches!(spec.handling, HandlingSpec::Rejecting { .. }) {
+        let expected = "handling \"rejecting\": it proposes no infeasible pose that another strategy could judge";
+        return Err(ProblemError::Method { method: spec.method.name(), expected });
+    }
+    if let Some(value) = spec.method.max_step_deg().filter(|step| !(step.is_finite() && *step > 0.0)) {
+        return Err(ProblemError::Value { field: "max_step_deg", value, expected: "give degrees above 0" });
     }
     if unexecuted_may_win && !spec.constraints.is_empty() {
         return Err(ConstraintError::UnexecutedWinner.into());

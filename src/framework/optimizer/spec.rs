@@ -37,11 +37,15 @@ pub struct ParticleSpec {
     pub link_share: f64,
     /// Standard deviation of each coordinate of the base, metres.
     pub base_shift_m: f64,
+    /// Largest step of a joint from one trial to the next, degrees (of 180 a stroke for prismatic joints); none where
+    /// the robot needs none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_step_deg: Option<f64>,
 }
 
 impl Default for ParticleSpec {
     fn default() -> Self {
-        Self { max_evaluations: 400, link_share: 0.046, base_shift_m: 0.03 }
+        Self { max_evaluations: 400, link_share: 0.046, base_shift_m: 0.03, max_step_deg: None }
     }
 }
 
@@ -68,6 +72,17 @@ impl MethodSpec {
     #[must_use]
     pub fn owns_the_run(&self) -> bool {
         matches!(self, Self::Model(_) | Self::Particle(_) | Self::Search(_))
+    }
+
+    /// Largest step of a joint from one trial to the next, degrees, where a method that owns the run is given one.
+    #[must_use]
+    pub fn max_step_deg(&self) -> Option<f64> {
+        match self {
+            Self::Model(spec) => spec.max_step_deg,
+            Self::Particle(spec) => spec.max_step_deg,
+            Self::Search(spec) => spec.max_step_deg,
+            _ => None,
+        }
     }
 
     /// The method's name, as written in presets and on the command line.

@@ -14,11 +14,15 @@ use utoipa::ToSchema;
 pub struct CoverSpec {
     /// The run gives up after this many trials.
     pub max_evaluations: u32,
+    /// Largest step of a joint from one trial to the next, degrees (of 180 a stroke for prismatic joints); none where
+    /// the robot needs none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_step_deg: Option<f64>,
 }
 
 impl Default for CoverSpec {
     fn default() -> Self {
-        Self { max_evaluations: 400 }
+        Self { max_evaluations: 400, max_step_deg: None }
     }
 }
 

@@ -5,6 +5,8 @@
 //!   (seed, length of the log), so a checkpoint is the log, and a resumed run proposes the same bits.
 //! - A trial is told with its observation *vector*; a trial whose observation was lost is told too, and costs one.
 //! - A measured pose serves every goal it is near; a goal no pose can serve is reported with its best residual.
+//! - What a robot may not take is never proposed: forbidden poses are not in the [`Space`], steps are bounded by
+//!   [`Stepped`] around every method.
 //! - No kinematics is needed: joints in, features out, limits known. A simulator is a prior, not a requirement.
 
 mod belief;
@@ -17,6 +19,7 @@ pub mod refine;
 pub mod search;
 pub mod sobol;
 pub mod space;
+pub mod steps;
 #[cfg(test)]
 mod tests;
 
@@ -24,7 +27,8 @@ pub use cover::CoverSpec;
 pub use model::{ModelIet, ModelSpec, Prior};
 pub use particle::{ParticleIet, Simulator};
 pub use search::SearchIet;
-pub use space::{Axis, Space};
+pub use space::{Allows, Axis, Space};
+pub use steps::{StepLimits, Stepped, Targets};
 
 use serde::{Deserialize, Serialize};
 

@@ -83,9 +83,6 @@ struct Start {
     variance: f64,
 }
 
-/// Says whether a pose (rad or m) may be proposed.
-pub type Admissible = Box<dyn Fn(&[f64]) -> bool + Send>;
-
 /// A run of MODEL-IET.
 pub struct ModelIet {
     spec: ModelSpec,
@@ -96,24 +93,13 @@ pub struct ModelIet {
     earlier: Vec<Trial>,
     log: Vec<Trial>,
     seed: u64,
-    admissible: Option<Admissible>,
 }
 
 impl ModelIet {
     /// A run for `goals` (n rows of m features) over `space`; a goal is reached within `tolerance` (features' unit).
     #[must_use]
     pub fn new(spec: ModelSpec, tolerance: f64, space: Space, goals: Vec<Vec<f64>>, seed: u64) -> Self {
-        Self {
-            spec,
-            tolerance,
-            space,
-            goals,
-            prior: None,
-            earlier: Vec::new(),
-            log: Vec::new(),
-            seed,
-            admissible: None,
-        }
+        Self { spec, tolerance, space, goals, prior: None, earlier: Vec::new(), log: Vec::new(), seed }
     }
 
     /// With a simulator as the prior mean.
@@ -130,20 +116,9 @@ impl ModelIet {
         self
     }
 
-    /// With a test that a pose must pass before it is proposed.
-    #[must_use]
-    pub fn with_admissible(mut self, admissible: Admissible) -> Self {
-        self.admissible = Some(admissible);
-        self
-    }
-
     fn identification_count(&self) -> usize {
         let nothing_known = self.prior.is_none() && self.earlier.iter().all(|t| t.observation.is_none());
         if nothing_known { self.space.len() + 1 } else { 0 }
-    }
-
-    fn is_admissible(&self, pose: &[f64]) -> bool {
-        self.admissible.as_ref().is_none_or(|test| test(pose))
     }
 
     fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> Proposal {
@@ -151,7 +126,8 @@ impl ModelIet {
         random.set_stream(self.log.len() as u64 + 1);
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         if self.log.iter().chain(&self.earlier).all(|t| t.observation.is_none()) {
-            return self.first_with_prior(prior.as_deref_mut(), &mut random);
+            let blind = self.log.len() >= identification + self.spec.max_tries as usize;
+            return if blind { Proposal::Finished } else { self.first_with_prior(prior.as_deref_mut(), &mut random) };
         }
         let Some(mut belief) = Belief::fit(&self.space, logs, &self.goals, prior, self.spec.noise) else {
             return Proposal::Finished;
@@ -174,7 +150,7 @@ impl ModelIet {
             }
         }
         if let Some((_, joints, goal)) = chosen {
-            return Proposal::Execute { joints: self.capped(joints), goal };
+            return Proposal::Execute { joints, goal };
         }
         Proposal::Finished
     }
@@ -182,6 +158,10 @@ impl ModelIet {
     /// The pose that a prior alone thinks nearest to the first goal.
     fn first_with_prior(&self, prior: Option<&mut (dyn FeatureMap + '_)>, random: &mut ChaCha8Rng) -> Proposal {
         let mut best = (f64::INFINITY, self.space.home());
+        if !self.log.is_empty() {
+            // The pose before was not seen: another one may be.
+            self.space.near(&self.space.home(), LOCAL_SPREAD, random, &mut best.1);
+        }
         if let Some(prior) = prior {
             let mut seen = vec![0.0; self.goals[0].len()];
             let mut pose = self.space.home();
@@ -195,7 +175,7 @@ impl ModelIet {
                 }
                 prior.predict(&pose, &mut seen);
                 let miss = distance(&seen, &self.goals[0]);
-                if miss < best.0 && self.is_admissible(&pose) {
+                if miss < best.0 && self.space.allows(&pose) {
                     best = (miss, pose.clone());
                 }
             }
@@ -307,7 +287,7 @@ impl ModelIet {
         starts
     }
 
-    /// The best starts, refined; only admissible poses.
+    /// The best starts, refined; only allowed poses.
     fn search(&self, shared: &[Start], aim: Aim, belief: &mut Belief, random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
         let local = self.local_starts(aim.goal, random);
         let weight = aim.caution * aim.goal.len() as f64;
@@ -316,28 +296,13 @@ impl ModelIet {
         scored.extend(local.iter().map(|pose| (belief.score(pose, aim), pose.as_slice())));
         scored.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut found = Vec::with_capacity(REFINED);
-        for &(_, start) in scored.iter().filter(|s| self.is_admissible(s.1)).take(REFINED) {
+        for &(_, start) in scored.iter().filter(|s| self.space.allows(s.1)).take(REFINED) {
             let mut pose = start.to_vec();
             refine(&self.space, &mut pose, REFINE_STEPS, &mut |q, local| belief.score_with_slopes(q, aim, local));
-            if !self.is_admissible(&pose) {
-                pose.copy_from_slice(start);
-            }
+            self.space.retreat(start, &mut pose);
             found.push(pose);
         }
         found
-    }
-
-    /// `joints` no further from the last executed pose than a trial may step.
-    fn capped(&self, mut joints: Vec<f64>) -> Vec<f64> {
-        let Some(cap) = self.spec.max_step_deg.map(f64::to_radians) else { return joints };
-        let last = self.log.last().map_or_else(|| self.space.home(), |t| t.joints.clone());
-        let steps = joints.iter().zip(&last).zip(&self.space.axes);
-        let longest = steps.map(|((q, l), axis)| (q - l).abs() * axis.scale()).fold(0.0, f64::max);
-        if longest > cap {
-            let share = cap / longest;
-            joints.iter_mut().zip(&last).for_each(|(q, l)| *q = l + (*q - l) * share);
-        }
-        joints
     }
 }
 
@@ -347,7 +312,7 @@ impl WholeRun for ModelIet {
         if self.log.len() < identification {
             let step = self.spec.identification_deg.to_radians();
             let pose = self.space.identification(self.log.len(), step);
-            if let Some(joints) = pose.filter(|p| self.is_admissible(p)) {
+            if let Some(joints) = pose.filter(|p| self.space.allows(p)) {
                 return Proposal::Execute { joints, goal: 0 };
             }
         }

@@ -194,7 +194,9 @@ impl ParticleIet {
         let mut pose = self.space.home();
         for (_, centre) in liked.iter().cycle().take(LOCAL_POSES) {
             self.space.near(&self.poses[*centre], LOCAL_SPREAD, random, &mut pose);
-            pool.push(pose.clone());
+            if self.space.allows(&pose) {
+                pool.push(pose.clone());
+            }
         }
         self.used = vec![false; pool.len()];
         self.poses = pool;

@@ -46,14 +46,15 @@ impl SearchIet {
     pub fn new(spec: CoverSpec, resets: bool, space: &Space, goals: &[Vec<f64>], seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let poses = sobol::poses(space, POSES, &mut random);
+        let count = poses.len();
         let mut run = Self {
             ledger: Ledger::new(spec, resets, goals),
             scale: space.axes.iter().map(|a| a.scale().to_degrees()).collect(),
             poses,
-            used: vec![false; POSES],
-            surv: vec![1.0; POSES],
-            num: vec![PRIOR_HITS; POSES],
-            den: vec![PRIOR_TRIALS; POSES],
+            used: vec![false; count],
+            surv: vec![1.0; count],
+            num: vec![PRIOR_HITS; count],
+            den: vec![PRIOR_TRIALS; count],
             radius: RADIUS_DEG,
             misses: 0,
             verdicts: Vec::new(),
@@ -105,9 +106,9 @@ impl WholeRun for SearchIet {
         if self.ledger.is_over() {
             return Proposal::Finished;
         }
-        let expected: Vec<f64> = (0..POSES).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
+        let expected: Vec<f64> = (0..self.poses.len()).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
         let mut best = (f64::NEG_INFINITY, None);
-        for z in (0..POSES).filter(|&z| !self.used[z]) {
+        for z in (0..self.poses.len()).filter(|&z| !self.used[z]) {
             let (mut sum, mut weight) = (0.0, 0.0);
             for &(x, b) in &self.near[z] {
                 sum += b * expected[x as usize];
@@ -124,7 +125,8 @@ impl WholeRun for SearchIet {
         let joints = trial.joints.clone();
         let verdict = self.ledger.tell(trial);
         let squared: Vec<f64> = self.poses.iter().map(|x| self.squared(&joints, x)).collect();
-        let nearest = (0..POSES).min_by(|&a, &b| squared[a].total_cmp(&squared[b])).unwrap_or(0);
+        let nearest = (0..self.poses.len()).min_by(|&a, &b| squared[a].total_cmp(&squared[b]));
+        let Some(nearest) = nearest else { return };
         self.used[nearest] = true;
         let Some(gain) = verdict.gain else { return };
         let ball: Vec<f64> = squared.iter().map(|&s| self.ball(s)).collect();

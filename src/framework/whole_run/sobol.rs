@@ -44,12 +44,15 @@ fn directions(dimension: usize) -> Option<[u32; 32]> {
     Some(v)
 }
 
-/// `count` poses in the limits, shifted by one random offset per joint.
+/// Poses drawn for one that is wanted, where most of the space is forbidden.
+const PATIENCE: usize = 16;
+
+/// `count` allowed poses, shifted by one random offset per joint; fewer where hardly any is allowed.
 pub fn poses(space: &Space, count: usize, random: &mut impl Rng) -> Vec<Vec<f64>> {
     let tables: Vec<Option<[u32; 32]>> = (0..space.len()).map(directions).collect();
     let shifts: Vec<f64> = space.axes.iter().map(|_| random.random::<f64>()).collect();
     let mut state = vec![0_u32; space.len()];
-    (1..=count)
+    (1..=count * PATIENCE)
         .map(|index| {
             let bit = (index - 1).trailing_ones() as usize;
             let axes = space.axes.iter().zip(&tables).zip(&mut state).zip(&shifts);
@@ -64,6 +67,8 @@ pub fn poses(space: &Space, count: usize, random: &mut impl Rng) -> Vec<Vec<f64>
             })
             .collect()
         })
+        .filter(|pose: &Vec<f64>| space.allows(pose))
+        .take(count)
         .collect()
 }
 
@@ -73,6 +78,7 @@ mod tests {
     use super::{directions, poses};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
+    use std::sync::Arc;
 
     #[test]
     fn every_dyadic_interval_of_each_joint_is_hit_once() {
@@ -93,9 +99,18 @@ mod tests {
     #[test]
     fn poses_stay_inside_the_limits_in_more_joints_than_the_table_holds() {
         let axis = Axis { lower: -1.0, upper: 2.0, home: 0.0, revolute: true };
-        let space = Space { axes: vec![axis; 12] };
+        let space = Space::new(vec![axis; 12]);
         let found = poses(&space, 100, &mut ChaCha8Rng::seed_from_u64(1));
         assert_eq!(found.len(), 100);
         assert!(found.iter().flatten().all(|q| (-1.0..=2.0).contains(q)));
+    }
+
+    #[test]
+    fn forbidden_poses_are_left_out_and_where_all_are_there_is_none() {
+        let axis = Axis { lower: -1.0, upper: 2.0, home: 0.0, revolute: true };
+        let space = |least: f64| Space::new(vec![axis; 2]).only(Arc::new(move |pose| pose[0] > least));
+        let found = poses(&space(1.0), 100, &mut ChaCha8Rng::seed_from_u64(1));
+        assert!(found.len() == 100 && found.iter().all(|pose| pose[0] > 1.0));
+        assert!(poses(&space(2.0), 100, &mut ChaCha8Rng::seed_from_u64(1)).is_empty());
     }
 }

@@ -1,8 +1,16 @@
-//! The joint space a method searches: limits, kinds and home; identification moves and step caps follow from it.
+//! The joint space a method searches: limits, kinds, home and forbidden poses; identification moves follow from it.
 
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+use std::fmt;
+use std::sync::Arc;
+
+/// Bisections of the way back into what is allowed.
+const BISECTIONS: u32 = 12;
+
+/// Says whether a pose (rad or m) may be executed.
+pub type Allows = Arc<dyn Fn(&[f64]) -> bool + Send + Sync>;
 
 /// One joint.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -25,14 +33,40 @@ impl Axis {
     }
 }
 
-/// All joints, in gene order.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// All joints, in gene order, and where they may go.
+#[derive(Clone)]
 pub struct Space {
     /// The d joints.
     pub axes: Vec<Axis>,
+    /// What a pose inside the limits must pass besides; none where every pose may be executed.
+    allows: Option<Allows>,
+}
+
+impl fmt::Debug for Space {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Space").field("axes", &self.axes).finish_non_exhaustive()
+    }
 }
 
 impl Space {
+    /// Every pose inside the limits of `axes`.
+    #[must_use]
+    pub fn new(axes: Vec<Axis>) -> Self {
+        Self { axes, allows: None }
+    }
+
+    /// Only those that pass `allows`.
+    #[must_use]
+    pub fn only(self, allows: Allows) -> Self {
+        Self { allows: Some(allows), ..self }
+    }
+
+    /// Whether a pose inside the limits may be executed.
+    #[must_use]
+    pub fn allows(&self, pose: &[f64]) -> bool {
+        self.allows.as_ref().is_none_or(|allows| allows(pose))
+    }
+
     /// Number of joints d.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -43,6 +77,28 @@ impl Space {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.axes.is_empty()
+    }
+
+    /// Moves `pose` back towards the allowed `start` until it is allowed.
+    pub fn retreat(&self, start: &[f64], pose: &mut [f64]) {
+        if self.allows(pose) {
+            return;
+        }
+        let end = pose.to_vec();
+        let (mut inside, mut outside) = (0.0, 1.0);
+        let on_the_way = |share: f64, pose: &mut [f64]| {
+            pose.iter_mut().zip(start).zip(&end).for_each(|((p, s), e)| *p = s + (e - s) * share);
+        };
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (inside + outside);
+            on_the_way(middle, pose);
+            if self.allows(pose) {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        on_the_way(inside, pose);
     }
 
     /// The starting pose, inside the limits.

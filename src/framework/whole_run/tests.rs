@@ -20,7 +20,7 @@ fn shipped(name: &str, method: MethodSpec) -> Problem {
 
 #[test]
 fn kernel_slopes_agree_with_differences() {
-    let space = Space { axes: vec![axis(true), axis(false), axis(true)] };
+    let space = Space::new(vec![axis(true), axis(false), axis(true)]);
     let mut poses = Poses::new(&space);
     poses.push(&[0.3, -0.2, 1.1]);
     poses.push(&[-0.9, 0.7, 0.0]);
@@ -44,7 +44,7 @@ fn kernel_slopes_agree_with_differences() {
 
 #[test]
 fn the_process_goes_through_its_data_and_is_unsure_elsewhere() {
-    let space = Space { axes: vec![axis(true), axis(true)] };
+    let space = Space::new(vec![axis(true), axis(true)]);
     let mut poses = Poses::new(&space);
     let data = [[0.0, 0.0], [0.8, -0.5], [-0.7, 1.0]];
     for q in &data {
@@ -63,7 +63,7 @@ fn the_process_goes_through_its_data_and_is_unsure_elsewhere() {
 
 #[test]
 fn asking_is_a_function_of_the_log() {
-    let space = Space { axes: vec![axis(true), axis(true)] };
+    let space = Space::new(vec![axis(true), axis(true)]);
     let goals = vec![vec![0.3, 0.4], vec![0.5, 0.1]];
     let fresh = || ModelIet::new(ModelSpec::default(), 0.01, space.clone(), goals.clone(), 7);
     let world = |q: &[f64]| vec![q[0].cos() + 0.3 * q[1].sin(), q[0].sin() * q[1].cos()];

@@ -1,0 +1,200 @@
+//! Any method that owns a run, kept to poses a robot may take: allowed ones, one bounded step from the pose before.
+//!
+//! A pose that is allowed and near enough passes as it is. Otherwise the trial goes as far towards it as one step may,
+//! to an allowed pose; where there is none within a step the run ends, and goals not reached are out of reach. The
+//! pose before a trial is the last accepted one where the world is put back and the accepted poses are repeated, else
+//! the last trial.
+//!
+//! Where consecutive *goals* are one step apart at most, the result is the sequence of measured poses with the least
+//! sum of squared distances from the goals among those that keep to it (dynamic programming over goals and trials).
+
+use super::space::Space;
+use super::{Outcome, Proposal, Trial, WholeRun};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+/// Poses tried around a blocked one, for each spread.
+const CLOUD: usize = 300;
+/// Their spreads, rad.
+const SPREADS: [f64; 4] = [0.05, 0.2, 0.6, 2.0];
+/// Shares of the way that are tried, of ten.
+const SHARES: u32 = 10;
+
+/// How far a robot may step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepLimits {
+    /// Largest step of each of the d joints from one trial to the next, rad or m; infinite where it is free.
+    pub per_trial: Vec<f64>,
+    /// Largest step of any joint from one goal's pose to the next goal's, rad or m.
+    pub per_goal: Option<f64>,
+    /// Where the robot stands before the first trial; none where that may lie anywhere.
+    pub start: Option<Vec<f64>>,
+    /// Whether the accepted poses are executed again before each trial.
+    pub repeats: bool,
+}
+
+/// What the goals of a run are and when one is reached.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Targets {
+    /// n rows of m features.
+    pub goals: Vec<Vec<f64>>,
+    /// Largest distance of a goal that is reached, features' unit.
+    pub tolerance: f64,
+}
+
+/// A method within its steps.
+pub struct Stepped {
+    inner: Box<dyn WholeRun>,
+    space: Space,
+    limits: StepLimits,
+    targets: Targets,
+    seed: u64,
+}
+
+impl Stepped {
+    /// `inner`, which searches `space`, within `limits`.
+    #[must_use]
+    pub fn new(inner: Box<dyn WholeRun>, space: Space, limits: StepLimits, targets: Targets, seed: u64) -> Self {
+        Self { inner, space, limits, targets, seed }
+    }
+
+    fn before(&self) -> Option<&[f64]> {
+        let log = self.inner.log();
+        let last = if self.limits.repeats { self.inner.accepted().last().map(|&i| &log[i]) } else { log.last() };
+        last.map(|trial| trial.joints.as_slice()).or(self.limits.start.as_deref())
+    }
+
+    fn may(&self, from: Option<&[f64]>, to: &[f64]) -> bool {
+        let near =
+            |from: &[f64]| to.iter().zip(from).zip(&self.limits.per_trial).all(|((t, f), l)| (t - f).abs() <= *l);
+        from.is_none_or(near) && self.space.allows(to)
+    }
+
+    /// A pose the robot may take that is as near to `wanted` as is found.
+    fn nearest(&self, wanted: &[f64]) -> Option<Vec<f64>> {
+        let from = self.before();
+        let reach = from.map_or_else(|| wanted.to_vec(), |from| self.capped(from, wanted));
+        if let Some(from) = from {
+            for share in (1..=SHARES).rev().map(|s| f64::from(s) / f64::from(SHARES)) {
+                let pose: Vec<f64> = from.iter().zip(&reach).map(|(f, r)| f + (r - f) * share).collect();
+                let is_new = self.inner.log().iter().all(|trial| trial.joints != pose);
+                if is_new && self.may(Some(from), &pose) {
+                    return Some(pose);
+                }
+            }
+        }
+        let mut random = ChaCha8Rng::seed_from_u64(!self.seed);
+        random.set_stream(self.inner.log().len() as u64 + 1);
+        let mut pose = vec![0.0; wanted.len()];
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for spread in SPREADS {
+            for _ in 0..CLOUD {
+                self.space.near(&reach, spread, &mut random, &mut pose);
+                if let Some(from) = from {
+                    pose = self.capped(from, &pose);
+                }
+                let way = self.way(&pose, wanted);
+                if best.as_ref().is_none_or(|b| way < b.0) && self.may(from, &pose) {
+                    best = Some((way, pose.clone()));
+                }
+            }
+            if best.is_some() {
+                break;
+            }
+        }
+        best.map(|b| b.1)
+    }
+
+    /// `to`, or the last pose on the straight way there within one step of `from`.
+    fn capped(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        let ways = to.iter().zip(from).map(|(t, f)| (t - f).abs());
+        let share = ways.zip(&self.limits.per_trial).filter(|(way, limit)| way > *limit).map(|(w, l)| l / w);
+        // A hair less than the whole step, so that rounding cannot make it longer.
+        let share = share.fold(1.0, |a: f64, b| a.min(b * (1.0 - 1e-12)));
+        from.iter().zip(to).map(|(f, t)| if share < 1.0 { f + (t - f) * share } else { *t }).collect()
+    }
+
+    fn way(&self, a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(&self.space.axes).map(|((x, y), axis)| ((x - y) * axis.scale()).powi(2)).sum()
+    }
+
+    /// The measured poses, one a goal, that lie within `limit` of one another and nearest to the goals.
+    fn linked(&self, limit: f64) -> Option<Vec<Outcome>> {
+        let log = self.inner.log();
+        let observed: Vec<(usize, &Trial, &[f64])> =
+            log.iter().enumerate().filter_map(|(i, t)| Some((i, t, t.observation.as_deref()?))).collect();
+        let within = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| (x - y).abs() <= limit);
+        let miss = |goal: &[f64], seen: &[f64]| goal.iter().zip(seen).map(|(g, s)| (g - s).powi(2)).sum::<f64>();
+        // cost[t]: least sum of the goals so far if the last one is served by trial t; chosen[goal][t]: by which before.
+        let mut cost: Vec<f64> = observed
+            .iter()
+            .map(|(_, t, _)| {
+                let starts = self.limits.start.as_ref().is_none_or(|start| within(start, &t.joints));
+                if starts { 0.0 } else { f64::INFINITY }
+            })
+            .collect();
+        let mut chosen: Vec<Vec<usize>> = Vec::with_capacity(self.targets.goals.len());
+        for (index, goal) in self.targets.goals.iter().enumerate() {
+            let best_before = |t: usize| {
+                let near = (0..observed.len()).filter(|&b| {
+                    index == 0 && b == t || index > 0 && { within(&observed[b].1.joints, &observed[t].1.joints) }
+                });
+                near.min_by(|&a, &b| cost[a].total_cmp(&cost[b])).unwrap_or(t)
+            };
+            let before: Vec<usize> = (0..observed.len()).map(best_before).collect();
+            cost = (0..observed.len()).map(|t| cost[before[t]] + miss(goal, observed[t].2)).collect();
+            chosen.push(before);
+        }
+        let mut at = (0..observed.len()).min_by(|&a, &b| cost[a].total_cmp(&cost[b]))?;
+        let mut outcomes = Vec::with_capacity(chosen.len());
+        for (goal, before) in self.targets.goals.iter().zip(&chosen).rev() {
+            let distance = miss(goal, observed[at].2).sqrt();
+            outcomes.push(Outcome {
+                trial: Some(observed[at].0),
+                distance,
+                reached: distance <= self.targets.tolerance,
+            });
+            at = before[at];
+        }
+        outcomes.reverse();
+        Some(outcomes)
+    }
+
+    fn is_linked(&self, outcomes: &[Outcome], limit: f64) -> bool {
+        let poses = outcomes.iter().filter_map(|o| Some(self.inner.log()[o.trial?].joints.as_slice()));
+        let poses: Vec<&[f64]> = self.limits.start.as_deref().into_iter().chain(poses).collect();
+        poses.windows(2).all(|w| w[0].iter().zip(w[1]).all(|(a, b)| (a - b).abs() <= limit))
+    }
+}
+
+impl WholeRun for Stepped {
+    fn ask(&mut self) -> Proposal {
+        let Proposal::Execute { joints, goal } = self.inner.ask() else { return Proposal::Finished };
+        if self.may(self.before(), &joints) {
+            return Proposal::Execute { joints, goal };
+        }
+        self.nearest(&joints).map_or(Proposal::Finished, |joints| Proposal::Execute { joints, goal })
+    }
+
+    fn tell(&mut self, trial: Trial) {
+        self.inner.tell(trial);
+    }
+
+    fn log(&self) -> &[Trial] {
+        self.inner.log()
+    }
+
+    fn accepted(&self) -> &[usize] {
+        self.inner.accepted()
+    }
+
+    fn outcomes(&mut self) -> Vec<Outcome> {
+        let outcomes = self.inner.outcomes();
+        match self.limits.per_goal {
+            Some(limit) if self.inner.accepted().is_empty() && !self.is_linked(&outcomes, limit) => {
+                self.linked(limit).unwrap_or(outcomes)
+            }
+            _ => outcomes,
+        }
+    }
+}
