@@ -60,6 +60,7 @@ fn problem(method: &str, constraint: ConstraintSpec, handling: HandlingSpec) -> 
         MethodSpec::Pso(spec) => spec.swarm.population = 12,
         MethodSpec::FiPso(spec) => spec.swarm.population = 12,
         MethodSpec::AffgPso(spec) => spec.swarm.population = 12,
+        MethodSpec::CmaEs(spec) => spec.restarts = 1,
         MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {}
     }
     problem.execution.method = chosen;
@@ -113,7 +114,7 @@ fn winners_are_feasible(problem: &Problem, result: &RunResult) -> bool {
     })
 }
 
-const METHODS: [&str; 4] = ["sst", "pso", "fi_pso", "affg_pso"];
+const METHODS: [&str; 5] = ["sst", "pso", "fi_pso", "affg_pso", "cma_es"];
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
@@ -159,7 +160,7 @@ proptest! {
         seed: u64, which in 0_usize..6, how in 0_usize..8, cuts in prop::collection::vec(1_u64..60, 1..6)
     ) {
         let handling = [hard(), soft()].concat()[how].clone();
-        let problem = problem(METHODS[which % 4], geometries()[which].clone(), handling);
+        let problem = problem(METHODS[which % 5], geometries()[which].clone(), handling);
         let whole = run(&problem, seed);
         let mut iet = Iet::new(&problem, seed).unwrap();
         for budget in cuts {
@@ -191,6 +192,7 @@ fn children_of_a_velocity_limit_stay_near_an_ancestor() {
                 upper: chain.genes().iter().map(|g| g.upper).collect(),
                 features: 1,
                 target: None,
+                near: None,
             };
             let inner = start(&problem.execution.method, space.clone(), 5, 0).unwrap();
             let rules = Rules {

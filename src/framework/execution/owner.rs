@@ -143,7 +143,11 @@ fn unbounded(
 ) -> Result<Option<Box<dyn WholeRun>>, ProblemError> {
     let Targets { goals, tolerance } = targets;
     Ok(Some(match &setup.spec.method {
-        MethodSpec::Sst(_) | MethodSpec::Pso(_) | MethodSpec::FiPso(_) | MethodSpec::AffgPso(_) => return Ok(None),
+        MethodSpec::Sst(_)
+        | MethodSpec::Pso(_)
+        | MethodSpec::FiPso(_)
+        | MethodSpec::AffgPso(_)
+        | MethodSpec::CmaEs(_) => return Ok(None),
         MethodSpec::Model(spec) => {
             let run = ModelIet::new(spec.clone(), tolerance, space.clone(), goals, seed);
             let mut run = run.with_earlier(setup.earlier.clone());

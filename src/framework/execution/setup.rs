@@ -72,9 +72,9 @@ impl Setup {
     /// A fresh search for the goal after `results`.
     pub(super) fn start(&self, seed: u64, results: &[GoalResult]) -> Result<Box<dyn Optimizer>, ProblemError> {
         let stream = results.len() as u64;
-        let inner = optimizer::start(&self.spec.method, self.space(), seed, stream)?;
+        let inner = optimizer::start(&self.spec.method, self.space(results), seed, stream)?;
         Ok(match self.rules(results) {
-            Some(rules) => Box::new(Constrained::new(inner, rules, self.space(), seed, stream)),
+            Some(rules) => Box::new(Constrained::new(inner, rules, self.space(results), seed, stream)),
             None => inner,
         })
     }
@@ -85,11 +85,11 @@ impl Setup {
         results: &[GoalResult],
         state: OptimizerState,
     ) -> Result<Box<dyn Optimizer>, ProblemError> {
-        let resume = |state| optimizer::resume(&self.spec.method, self.space(), state);
+        let resume = |state| optimizer::resume(&self.spec.method, self.space(results), state);
         Ok(match (self.rules(results), state) {
             (Some(rules), OptimizerState::Constrained(state)) => {
                 let inner = resume(state.inner().clone())?;
-                Box::new(Constrained::resume(inner, rules, self.space(), *state)?)
+                Box::new(Constrained::resume(inner, rules, self.space(results), *state)?)
             }
             (_, state) => resume(state)?,
         })
@@ -105,13 +105,14 @@ impl Setup {
         })
     }
 
-    /// Where the optimiser of a goal searches.
-    pub(super) fn space(&self) -> SearchSpace {
+    /// Where the optimiser of the goal after `results` searches.
+    fn space(&self, results: &[GoalResult]) -> SearchSpace {
         SearchSpace {
             lower: self.chain.genes().iter().map(|g| g.lower).collect(),
             upper: self.chain.genes().iter().map(|g| g.upper).collect(),
             features: self.goals.features().len(),
             target: self.spec.target_discrepancy,
+            near: results.last().map(|result| result.joints.clone()),
         }
     }
 
@@ -168,6 +169,7 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
         MethodSpec::AffgPso(method) => method.unexecuted_may_win,
         MethodSpec::Sst(_)
         | MethodSpec::Pso(_)
+        | MethodSpec::CmaEs(_)
         | MethodSpec::Model(_)
         | MethodSpec::Particle(_)
         | MethodSpec::Search(_) => false,

@@ -9,6 +9,7 @@
 mod affg_pso;
 mod batch;
 mod bounds;
+mod cma_es;
 mod fi_pso;
 mod granules;
 mod hall;
@@ -22,6 +23,7 @@ mod swarm;
 pub use affg_pso::AffgState;
 pub use batch::Batch;
 pub use bounds::BoundsRule;
+pub use cma_es::{CmaEs, CmaEsSpec, CmaEsState};
 pub(in crate::framework) use hall::Hall;
 pub use rng::RandomStream;
 pub use spec::{MethodSpec, ParticleSpec, SstSpec};
@@ -206,6 +208,8 @@ pub enum OptimizerState {
     FiPso(SwarmState),
     /// Particle swarm with fitness granulation.
     AffgPso(AffgState),
+    /// Covariance matrix adaptation.
+    CmaEs(CmaEsState),
     /// Any of these under constraints.
     Constrained(Box<ConstrainedState>),
 }
@@ -219,6 +223,7 @@ impl OptimizerState {
             Self::Pso(_) => "pso",
             Self::FiPso(_) => "fi_pso",
             Self::AffgPso(_) => "affg_pso",
+            Self::CmaEs(_) => "cma_es",
             Self::Constrained(state) => state.method(),
         }
     }
@@ -235,6 +240,8 @@ pub struct SearchSpace {
     pub features: usize,
     /// Discrepancy that is good enough.
     pub target: Option<f64>,
+    /// The previous goal's result (rad or m): where a method that can do so begins.
+    pub near: Option<Vec<f64>>,
 }
 
 /// Why a method cannot be run.
@@ -305,6 +312,7 @@ pub fn start(
         MethodSpec::Pso(spec) => pso::start(spec, space, seed, stream),
         MethodSpec::FiPso(spec) => fi_pso::start(spec, space, seed, stream),
         MethodSpec::AffgPso(spec) => affg_pso::start(spec, space, seed, stream),
+        MethodSpec::CmaEs(spec) => Ok(Box::new(CmaEs::new(spec, space, seed, stream)?)),
         MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {
             Err(OptimizerError::OwnsTheRun { method: method.name() })
         }
@@ -325,6 +333,7 @@ pub fn resume(
         (MethodSpec::Pso(spec), OptimizerState::Pso(state)) => pso::resume(spec, space, state),
         (MethodSpec::FiPso(spec), OptimizerState::FiPso(state)) => fi_pso::resume(spec, space, state),
         (MethodSpec::AffgPso(spec), OptimizerState::AffgPso(state)) => affg_pso::resume(spec, space, state),
+        (MethodSpec::CmaEs(spec), OptimizerState::CmaEs(state)) => Ok(Box::new(CmaEs::resume(spec, space, state)?)),
         (method, state) => Err(OptimizerError::Method { found: state.method(), expected: method.name() }),
     }
 }

@@ -47,6 +47,13 @@ impl RandomStream {
         low + (high - low) * self.unit()
     }
 
+    /// Standard normal, by Box and Muller.
+    #[inline]
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.unit()).cos()
+    }
+
     /// Uniform in `0..count` (bias below 2^-32).
     #[inline]
     pub fn below(&mut self, count: usize) -> usize {
@@ -113,6 +120,15 @@ mod tests {
     }
 
     const PINNED: [usize; 12] = [2, 3, 5, 1, 7, 7, 6, 5, 3, 0, 6, 1];
+
+    #[test]
+    fn normal_numbers_have_mean_0_and_variance_1() {
+        let mut stream = RandomStream::new(3, 0);
+        let drawn: Vec<f64> = (0..20_000).map(|_| stream.normal()).collect();
+        let mean = drawn.iter().sum::<f64>() / 20_000.0;
+        let variance = drawn.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 20_000.0;
+        assert!(mean.abs() < 0.03 && (variance - 1.0).abs() < 0.04, "{mean} {variance}");
+    }
 
     #[test]
     fn seeds_and_streams_differ() {

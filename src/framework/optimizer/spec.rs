@@ -2,6 +2,7 @@
 //! defines it; each quirk of the published runs is a named option, on only in the `paper-*` presets.
 
 use super::bounds::BoundsRule;
+use super::cma_es::CmaEsSpec;
 use super::swarm::{AffgPsoSpec, FiPsoSpec, PsoSpec};
 use crate::framework::whole_run::{CoverSpec, ModelSpec};
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,8 @@ pub enum MethodSpec {
     FiPso(FiPsoSpec),
     /// Particle swarm with adaptive fuzzy fitness granulation.
     AffgPso(AffgPsoSpec),
+    /// Covariance matrix adaptation, each goal's search begun at the previous goal's result.
+    CmaEs(CmaEsSpec),
     /// MODEL-IET: a Gaussian process of the feature map owns the whole run; a dozen evaluations.
     Model(ModelSpec),
     /// PARTICLE-IET: a coverage world with the described robot as an uncertain prior.
@@ -51,7 +54,7 @@ impl Default for ParticleSpec {
 
 impl MethodSpec {
     /// Names of all methods.
-    pub const NAMES: [&'static str; 7] = ["sst", "pso", "fi_pso", "affg_pso", "model", "particle", "search"];
+    pub const NAMES: [&'static str; 8] = ["sst", "pso", "fi_pso", "affg_pso", "cma_es", "model", "particle", "search"];
 
     /// The method of that name with its defaults.
     #[must_use]
@@ -61,6 +64,7 @@ impl MethodSpec {
             "pso" => Self::Pso(PsoSpec::default()),
             "fi_pso" => Self::FiPso(FiPsoSpec::default()),
             "affg_pso" => Self::AffgPso(AffgPsoSpec::default()),
+            "cma_es" => Self::CmaEs(CmaEsSpec::default()),
             "model" => Self::Model(ModelSpec::default()),
             "particle" => Self::Particle(ParticleSpec::default()),
             "search" => Self::Search(CoverSpec::default()),
@@ -93,6 +97,7 @@ impl MethodSpec {
             Self::Pso(_) => "pso",
             Self::FiPso(_) => "fi_pso",
             Self::AffgPso(_) => "affg_pso",
+            Self::CmaEs(_) => "cma_es",
             Self::Model(_) => "model",
             Self::Particle(_) => "particle",
             Self::Search(_) => "search",

@@ -199,7 +199,7 @@ mod tests {
                 let fits = covers || !matches!(method, "particle" | "search");
                 assert_eq!(Iet::new(&preset.problem, 1).is_ok(), fits, "{name} {method}");
                 let is_default = preset.problem.execution.method == MethodSpec::by_name(method).unwrap();
-                let is_published = !preset.problem.execution.method.owns_the_run();
+                let is_published = matches!(method, "sst" | "pso" | "fi_pso" | "affg_pso");
                 assert!(
                     !(is_published && name.starts_with("paper-") && is_default),
                     "{name} {method}: the paper's parameters"

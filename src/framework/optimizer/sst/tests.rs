@@ -4,7 +4,7 @@ use super::*;
 use proptest::prelude::*;
 
 fn space(target: Option<f64>) -> SearchSpace {
-    SearchSpace { lower: vec![-0.26; 3], upper: vec![1.75; 3], features: 1, target }
+    SearchSpace { lower: vec![-0.26; 3], upper: vec![1.75; 3], features: 1, target, near: None }
 }
 
 fn sphere(joints: &[f64]) -> f64 {

@@ -62,7 +62,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn space(genes: usize) -> SearchSpace {
-        SearchSpace { lower: vec![-1.0; genes], upper: vec![1.0; genes], features: 1, target: None }
+        SearchSpace { lower: vec![-1.0; genes], upper: vec![1.0; genes], features: 1, target: None, near: None }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use rstest::rstest;
 const METHODS: [&str; 3] = ["pso", "fi_pso", "affg_pso"];
 
 fn space(target: Option<f64>) -> SearchSpace {
-    SearchSpace { lower: vec![-0.26; 3], upper: vec![1.75; 3], features: 1, target }
+    SearchSpace { lower: vec![-0.26; 3], upper: vec![1.75; 3], features: 1, target, near: None }
 }
 
 fn sphere(joints: &[f64]) -> f64 {
