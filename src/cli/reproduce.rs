@@ -39,7 +39,7 @@ pub struct ReproduceArguments {
 pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
     let tables = PaperTables::shipped()?.only(arguments.table);
     let spec = tables.experiment(arguments.seed, arguments.repetitions)?;
-    let plan = spec.plan(|name| Some(preset::shipped(name).ok()?.problem))?;
+    let plan = spec.plan(|name| preset::shipped(name).ok())?;
     let mut experiment = Experiment::new(plan);
     finish(&mut experiment, arguments.threads)?;
     if let Some(folder) = &arguments.figures {
@@ -80,12 +80,17 @@ fn write_figures(folder: &Path, experiment: &Experiment, cells: &[PaperCell]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::experiment::CellResult;
+    use crate::framework::experiment::{CellResult, Plan};
 
-    fn experiment(table: Option<u8>, repetitions: u32, threads: u32) -> (PaperTables, Experiment) {
+    fn plan(table: Option<u8>, repetitions: u32) -> (PaperTables, Plan) {
         let tables = PaperTables::shipped().unwrap().only(table);
         let spec = tables.experiment(1, repetitions).unwrap();
-        let plan = spec.plan(|name| Some(preset::shipped(name).ok()?.problem)).unwrap();
+        let plan = spec.plan(|name| preset::shipped(name).ok()).unwrap();
+        (tables, plan)
+    }
+
+    fn experiment(table: Option<u8>, repetitions: u32, threads: u32) -> (PaperTables, Experiment) {
+        let (tables, plan) = plan(table, repetitions);
         let mut experiment = Experiment::new(plan);
         finish(&mut experiment, Some(threads)).unwrap();
         (tables, experiment)
@@ -96,6 +101,20 @@ mod tests {
         let (one, many) = (experiment(Some(2), 6, 1).1, experiment(Some(2), 6, 3).1);
         assert_eq!(one, many);
         assert_eq!(export::paper_csv(&one.table()), export::paper_csv(&many.table()));
+    }
+
+    /// `cgda run --preset paper-wax --method pso` runs what the tables' cells do.
+    #[test]
+    fn the_tables_run_the_presets_own_methods() {
+        let (tables, plan) = plan(None, 1);
+        let mut compared = 0;
+        for (paper, cell) in tables.cells.iter().zip(&plan.cells).filter(|(paper, _)| paper.table <= 2) {
+            let mut preset = preset::shipped(&paper.preset).unwrap();
+            assert!(preset.select_method(&paper.setting.to_lowercase().replace('-', "_")), "{}", paper.setting);
+            assert_eq!(preset.problem, cell.problem, "{} {}", paper.preset, paper.setting);
+            compared += 1;
+        }
+        assert_eq!(compared, 8);
     }
 
     /// Means of 20 runs, so in bands of 40 %: a smoke test; 1000 runs stay within 8 and 13 %.

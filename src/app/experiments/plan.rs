@@ -74,7 +74,7 @@ fn plan(request: &ExperimentRequest, name: String, seed: u64) -> Result<Plan, Ap
     let spec = ExperimentSpec { name, seed, repetitions, cells, matrix: request.matrix.clone() };
     let wrong =
         |error: &(dyn std::error::Error + 'static)| AppError::field("", "invalid_experiment", chain_text(error));
-    let plan = spec.plan(|name| Some(preset::shipped(name).ok()?.problem)).map_err(|error| wrong(&error))?;
+    let plan = spec.plan(|name| preset::shipped(name).ok()).map_err(|error| wrong(&error))?;
     if plan.runs() > MAX_RUNS {
         let detail = format!("{} runs are more than {MAX_RUNS}: split the experiment", plan.runs());
         return Err(AppError::field("/repetitions", "out_of_range", detail));

@@ -29,6 +29,9 @@ pub struct PaperCell {
     pub settings_as_run: String,
     /// The problem it starts from.
     pub preset: String,
+    /// Which of the preset's methods searches; its first where absent.
+    #[serde(default)]
+    pub method: Option<String>,
     /// Names of the patches over it, in order.
     #[serde(default)]
     pub patches: Vec<String>,
@@ -183,6 +186,7 @@ impl PaperTables {
             action: cell.action.clone(),
             setting: cell.setting.clone(),
             preset: cell.preset.clone(),
+            method: cell.method.clone(),
             overrides,
             invalid: cell.invalid,
         })

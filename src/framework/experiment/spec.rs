@@ -2,6 +2,7 @@
 
 use super::patch::merge;
 use crate::framework::execution::Problem;
+use crate::framework::preset::Preset;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use utoipa::ToSchema;
@@ -42,6 +43,9 @@ pub struct CellSpec {
     pub setting: String,
     /// The problem it starts from.
     pub preset: String,
+    /// Which of the preset's methods searches, with the preset's own parameters where it has some; its first where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub method: Option<String>,
     /// JSON merge patch over the preset's problem; picking another `name`, `kind` or `strategy` replaces that whole choice.
     #[serde(default)]
     #[schema(value_type = Object)]
@@ -74,6 +78,9 @@ pub struct MatrixSpec {
 pub struct Variant {
     /// Shown as the cell's setting.
     pub name: String,
+    /// As in [`CellSpec`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub method: Option<String>,
     /// JSON merge patch over the problem.
     #[serde(default)]
     #[schema(value_type = Object)]
@@ -152,6 +159,16 @@ pub enum ExperimentError {
         /// The preset named.
         preset: String,
     },
+    /// A method nobody knows.
+    #[error("cell {cell} ({setting:?}) names method {method:?}, which does not exist")]
+    UnknownMethod {
+        /// Cell index from 0.
+        cell: usize,
+        /// Its setting.
+        setting: String,
+        /// The method named.
+        method: String,
+    },
     /// Two cells nobody could tell apart.
     #[error("cells {first} and {second} are both table {table:?}, action {action:?}, setting {setting:?}: rename one")]
     Duplicate {
@@ -186,7 +203,7 @@ impl ExperimentSpec {
     pub fn all_cells(&self) -> Vec<CellSpec> {
         let mut cells = self.cells.clone();
         let Some(matrix) = &self.matrix else { return cells };
-        let unchanged = [Variant { name: String::new(), overrides: Value::Null }];
+        let unchanged = [Variant { name: String::new(), method: None, overrides: Value::Null }];
         let axis = |variants: &'_ [Variant]| if variants.is_empty() { unchanged.to_vec() } else { variants.to_vec() };
         for preset in &matrix.presets {
             for method in &axis(&matrix.methods) {
@@ -204,6 +221,7 @@ impl ExperimentSpec {
                         action: preset.clone(),
                         setting: names.join(", "),
                         preset: preset.clone(),
+                        method: setting.method.clone().or_else(|| method.method.clone()),
                         overrides,
                         invalid: matrix.invalid,
                     });
@@ -213,11 +231,11 @@ impl ExperimentSpec {
         cells
     }
 
-    /// The experiment with every cell's problem in place; `preset` gives the problem of a name.
+    /// The experiment with every cell's problem in place; `preset` finds one by its name.
     ///
     /// # Errors
     /// [`ExperimentError`] names the first cell that breaks a rule.
-    pub fn plan(&self, preset: impl Fn(&str) -> Option<Problem>) -> Result<Plan, ExperimentError> {
+    pub fn plan(&self, preset: impl Fn(&str) -> Option<Preset>) -> Result<Plan, ExperimentError> {
         let cells = self.all_cells();
         let repetitions = self.repetitions;
         if cells.is_empty() || repetitions == 0 {
@@ -236,10 +254,14 @@ impl ExperimentSpec {
     }
 }
 
-fn place(index: usize, spec: CellSpec, preset: impl Fn(&str) -> Option<Problem>) -> Result<Cell, ExperimentError> {
-    let Some(base) = preset(&spec.preset) else {
+fn place(index: usize, spec: CellSpec, preset: impl Fn(&str) -> Option<Preset>) -> Result<Cell, ExperimentError> {
+    let Some(mut preset) = preset(&spec.preset) else {
         return Err(ExperimentError::UnknownPreset { cell: index, setting: spec.setting, preset: spec.preset });
     };
+    if let Some(method) = spec.method.as_ref().filter(|method| !preset.select_method(method)).cloned() {
+        return Err(ExperimentError::UnknownMethod { cell: index, setting: spec.setting, method });
+    }
+    let base = preset.problem;
     if spec.overrides.is_null() {
         return Ok(Cell { spec, problem: base });
     }

@@ -3,21 +3,24 @@
 use super::*;
 use crate::framework::execution::{ExecutionSpec, Problem};
 use crate::framework::generalization::Goals;
-use crate::framework::optimizer::{MethodSpec, SstSpec, Tally};
+use crate::framework::optimizer::{MethodSpec, PsoSpec, SstSpec, SwarmSpec, Tally};
+use crate::framework::preset::Preset;
 use crate::framework::world::{ToolPositionSpec, WorldSpec};
 use crate::framework::{Feature, recognition::Metric, robot::RobotSpec};
 use proptest::prelude::*;
 use serde_json::json;
 
-fn preset(name: &str) -> Option<Problem> {
-    (name == "reach").then(|| Problem {
+fn preset(name: &str) -> Option<Preset> {
+    let problem = Problem {
         goals: Goals::new(vec![Feature::new("x", "mm")], &[vec![1.0], vec![2.0]]).unwrap(),
         urdf: "<robot/>".to_owned(),
         robot: RobotSpec::default(),
         world: WorldSpec::ToolPosition(ToolPositionSpec { unit: "mm".to_owned() }),
         execution: serde_json::from_value::<ExecutionSpec>(json!({"method": {"name": "sst"}})).unwrap(),
         earlier: Vec::new(),
-    })
+    };
+    let methods = vec![serde_json::from_value(json!({"name": "pso", "swarm": {"population": 9}})).unwrap()];
+    (name == "reach").then(|| Preset { name: name.to_owned(), description: String::new(), problem, methods })
 }
 
 fn spec() -> ExperimentSpec {
@@ -63,6 +66,26 @@ fn a_matrix_expands_to_named_cells_with_whole_problems() {
     assert_eq!(small.method, MethodSpec::Sst(SstSpec { population: 10, ..SstSpec::default() }));
     assert_eq!((small.metric, plan.cells[0].problem.execution.metric), (Metric::Aquila, Metric::Multivariate));
     assert_eq!(plan.runs(), 12);
+}
+
+/// A cell that names a method has the preset's own parameters for it, and its overrides on top.
+#[test]
+fn a_method_is_taken_with_the_preset_s_parameters() {
+    let methods = json!([{"name": "swarm", "method": "pso"}]);
+    let settings = json!([
+        {"name": "own"},
+        {"name": "quick", "overrides": {"execution": {"method": {"swarm": {"stagnation": 1}}}}}
+    ]);
+    let matrix = json!({"presets": ["reach"], "methods": methods, "settings": settings});
+    let mut named: ExperimentSpec =
+        serde_json::from_value(json!({"name": "methods", "repetitions": 1, "matrix": matrix})).unwrap();
+    let methods: Vec<_> = named.plan(preset).unwrap().cells.into_iter().map(|c| c.problem.execution.method).collect();
+    let own = SwarmSpec { population: 9, ..SwarmSpec::default() };
+    let quick = SwarmSpec { stagnation: 1, ..own.clone() };
+    assert_eq!(methods, [own, quick].map(|swarm| MethodSpec::Pso(PsoSpec { swarm })));
+    named.matrix.as_mut().unwrap().methods[0].method = Some("annealing".to_owned());
+    let error = named.plan(preset).unwrap_err().to_string();
+    assert!(error.contains("method \"annealing\""), "{error}");
 }
 
 #[rstest::rstest]
