@@ -61,7 +61,7 @@ fn problem(method: &str, constraint: ConstraintSpec, handling: HandlingSpec) -> 
         MethodSpec::FiPso(spec) => spec.swarm.population = 12,
         MethodSpec::AffgPso(spec) => spec.swarm.population = 12,
         MethodSpec::CmaEs(spec) => spec.restarts = 1,
-        MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {}
+        MethodSpec::Broyden(_) | MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {}
     }
     problem.execution.method = chosen;
     problem.execution.constraints = vec![constraint];

@@ -9,8 +9,8 @@ use crate::framework::constraint::Proposal as Pose;
 use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
 use crate::framework::robot::{Chain, Gene, JointKind};
 use crate::framework::whole_run::{
-    Axis, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space, StepLimits,
-    Stepped, Targets, Trial, WholeRun,
+    Axis, Broyden, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space,
+    StepLimits, Stepped, Targets, Trial, WholeRun,
 };
 use crate::framework::world::{self, CoverageSpec, World, WorldSpec};
 use std::sync::Arc;
@@ -148,6 +148,13 @@ fn unbounded(
         | MethodSpec::FiPso(_)
         | MethodSpec::AffgPso(_)
         | MethodSpec::CmaEs(_) => return Ok(None),
+        MethodSpec::Broyden(spec) => {
+            if matches!(setup.world, WorldSpec::Coverage(_)) {
+                let expected = "features that change with the pose; take particle or search for a coverage world";
+                return Err(ProblemError::Method { method: "broyden", expected });
+            }
+            Box::new(Broyden::new(spec.clone(), tolerance, space.clone(), goals))
+        }
         MethodSpec::Model(spec) => {
             let run = ModelIet::new(spec.clone(), tolerance, space.clone(), goals, seed);
             let mut run = run.with_earlier(setup.earlier.clone());

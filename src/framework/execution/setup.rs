@@ -170,6 +170,7 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
         MethodSpec::Sst(_)
         | MethodSpec::Pso(_)
         | MethodSpec::CmaEs(_)
+        | MethodSpec::Broyden(_)
         | MethodSpec::Model(_)
         | MethodSpec::Particle(_)
         | MethodSpec::Search(_) => false,

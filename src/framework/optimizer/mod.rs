@@ -313,7 +313,7 @@ pub fn start(
         MethodSpec::FiPso(spec) => fi_pso::start(spec, space, seed, stream),
         MethodSpec::AffgPso(spec) => affg_pso::start(spec, space, seed, stream),
         MethodSpec::CmaEs(spec) => Ok(Box::new(CmaEs::new(spec, space, seed, stream)?)),
-        MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {
+        MethodSpec::Broyden(_) | MethodSpec::Model(_) | MethodSpec::Particle(_) | MethodSpec::Search(_) => {
             Err(OptimizerError::OwnsTheRun { method: method.name() })
         }
     }

@@ -4,7 +4,7 @@
 use super::bounds::BoundsRule;
 use super::cma_es::CmaEsSpec;
 use super::swarm::{AffgPsoSpec, FiPsoSpec, PsoSpec};
-use crate::framework::whole_run::{CoverSpec, ModelSpec};
+use crate::framework::whole_run::{BroydenSpec, CoverSpec, ModelSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -22,6 +22,8 @@ pub enum MethodSpec {
     AffgPso(AffgPsoSpec),
     /// Covariance matrix adaptation, each goal's search begun at the previous goal's result.
     CmaEs(CmaEsSpec),
+    /// Gauss-Newton with Broyden's Jacobian, carried over from goal to goal: few evaluations, bad tails.
+    Broyden(BroydenSpec),
     /// MODEL-IET: a Gaussian process of the feature map owns the whole run; a dozen evaluations.
     Model(ModelSpec),
     /// PARTICLE-IET: a coverage world with the described robot as an uncertain prior.
@@ -54,7 +56,8 @@ impl Default for ParticleSpec {
 
 impl MethodSpec {
     /// Names of all methods.
-    pub const NAMES: [&'static str; 8] = ["sst", "pso", "fi_pso", "affg_pso", "cma_es", "model", "particle", "search"];
+    pub const NAMES: [&'static str; 9] =
+        ["sst", "pso", "fi_pso", "affg_pso", "cma_es", "broyden", "model", "particle", "search"];
 
     /// The method of that name with its defaults.
     #[must_use]
@@ -65,6 +68,7 @@ impl MethodSpec {
             "fi_pso" => Self::FiPso(FiPsoSpec::default()),
             "affg_pso" => Self::AffgPso(AffgPsoSpec::default()),
             "cma_es" => Self::CmaEs(CmaEsSpec::default()),
+            "broyden" => Self::Broyden(BroydenSpec::default()),
             "model" => Self::Model(ModelSpec::default()),
             "particle" => Self::Particle(ParticleSpec::default()),
             "search" => Self::Search(CoverSpec::default()),
@@ -75,13 +79,14 @@ impl MethodSpec {
     /// Whether the method owns a whole run, instead of searching goal by goal.
     #[must_use]
     pub fn owns_the_run(&self) -> bool {
-        matches!(self, Self::Model(_) | Self::Particle(_) | Self::Search(_))
+        matches!(self, Self::Broyden(_) | Self::Model(_) | Self::Particle(_) | Self::Search(_))
     }
 
     /// Largest step of a joint from one trial to the next, degrees, where a method that owns the run is given one.
     #[must_use]
     pub fn max_step_deg(&self) -> Option<f64> {
         match self {
+            Self::Broyden(spec) => spec.max_step_deg,
             Self::Model(spec) => spec.max_step_deg,
             Self::Particle(spec) => spec.max_step_deg,
             Self::Search(spec) => spec.max_step_deg,
@@ -98,6 +103,7 @@ impl MethodSpec {
             Self::FiPso(_) => "fi_pso",
             Self::AffgPso(_) => "affg_pso",
             Self::CmaEs(_) => "cma_es",
+            Self::Broyden(_) => "broyden",
             Self::Model(_) => "model",
             Self::Particle(_) => "particle",
             Self::Search(_) => "search",

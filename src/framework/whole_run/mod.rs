@@ -10,6 +10,7 @@
 //! - No kinematics is needed: joints in, features out, limits known. A simulator is a prior, not a requirement.
 
 mod belief;
+pub mod broyden;
 pub mod cover;
 pub mod kernel;
 pub mod model;
@@ -23,6 +24,7 @@ pub mod steps;
 #[cfg(test)]
 mod tests;
 
+pub use broyden::{Broyden, BroydenSpec};
 pub use cover::CoverSpec;
 pub use model::{ModelIet, ModelSpec, Prior};
 pub use particle::{ParticleIet, Simulator};

@@ -111,17 +111,23 @@ impl Space {
     /// share of a stroke) towards the side with room, up to the limit.
     #[must_use]
     pub fn identification(&self, index: usize, step: f64) -> Option<Vec<f64>> {
-        let mut pose = self.home();
-        if index > self.len() {
-            return None;
+        let home = self.home();
+        match index.checked_sub(1) {
+            None => Some(home),
+            Some(joint) => (joint < self.len()).then(|| self.moved(&home, joint, step)),
         }
-        if let Some(axis) = index.checked_sub(1).map(|j| self.axes[j]) {
-            let at = pose[index - 1];
-            let move_by = step / axis.scale();
-            let up = axis.upper - at >= move_by || axis.upper - at >= at - axis.lower;
-            pose[index - 1] = if up { (at + move_by).min(axis.upper) } else { (at - move_by).max(axis.lower) };
-        }
-        Some(pose)
+    }
+
+    /// `pose` with one joint moved by `step` (rad, or the like share of a stroke) towards the side with room, up to the
+    /// limit.
+    #[must_use]
+    pub fn moved(&self, pose: &[f64], joint: usize, step: f64) -> Vec<f64> {
+        let (axis, at) = (self.axes[joint], pose[joint]);
+        let move_by = step / axis.scale();
+        let up = axis.upper - at >= move_by || axis.upper - at >= at - axis.lower;
+        let mut moved = pose.to_vec();
+        moved[joint] = if up { (at + move_by).min(axis.upper) } else { (at - move_by).max(axis.lower) };
+        moved
     }
 
     /// A pose uniform in the limits.

@@ -2,7 +2,7 @@
 
 use super::kernel::{Factors, Kernel, Poses};
 use super::process::{Family, Process};
-use super::{Axis, ModelIet, ModelSpec, Proposal, Space, Trial, WholeRun};
+use super::{Axis, BroydenSpec, ModelIet, ModelSpec, Proposal, Space, Trial, WholeRun};
 use crate::framework::execution::{Iet, IetState, Problem, RunResult, run, simulate};
 use crate::framework::optimizer::{MethodSpec, ParticleSpec};
 use crate::framework::preset;
@@ -108,6 +108,7 @@ fn interrupted(problem: &Problem, seed: u64, slice: u64) -> RunResult {
 fn a_resumed_run_gives_the_same_bits() {
     for (name, method) in [
         ("wax-reachable", MethodSpec::Model(ModelSpec::default())),
+        ("wax", MethodSpec::Broyden(BroydenSpec::default())),
         ("paint", MethodSpec::Particle(ParticleSpec::default())),
     ] {
         let problem = shipped(name, method);
