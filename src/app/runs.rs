@@ -6,6 +6,7 @@ use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, Timestamp, o
 use crate::framework::Feature;
 use crate::framework::optimizer::{Provenance, StopReason, Tally};
 use crate::framework::recognition::Metric;
+use crate::framework::whole_run::Trial;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -84,6 +85,9 @@ pub struct RunGoal {
     pub observation: Vec<f64>,
     /// What was asked for.
     pub goal: Vec<f64>,
+    /// Distance of `observation` from `goal` (Euclidean, features' unit): for a goal out of reach the best found.
+    #[serde(default)]
+    pub residual: Option<f64>,
     /// Where the winner's discrepancy comes from.
     #[serde(default = "simulated")]
     pub winner: Provenance,
@@ -109,6 +113,15 @@ pub struct RunGoals {
     pub joint_names: Vec<String>,
     /// One entry a goal.
     pub goals: Vec<RunGoal>,
+}
+
+/// The trials of a run whose method remembers each one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct RunTrials {
+    /// The run.
+    pub run: RunId,
+    /// In the order they were made; none where the method remembers none.
+    pub trials: Vec<Trial>,
 }
 
 /// Discrepancy against evaluations.
@@ -163,6 +176,15 @@ impl App {
     /// `NotFound`.
     pub async fn run_goals(&self, id: &RunId) -> Result<RunGoals, AppError> {
         Ok(self.ports.store.run_goals(id).await?)
+    }
+
+    /// Its trials.
+    ///
+    /// # Errors
+    /// `NotFound`.
+    pub async fn run_trials(&self, id: &RunId) -> Result<RunTrials, AppError> {
+        let run = self.get_run(id).await?;
+        Ok(RunTrials { run: run.id, trials: self.ports.store.run_trials(id).await?.trials })
     }
 
     /// Its convergence: each improvement and where each goal ended, at most `max_points` (2 to 10000) evenly chosen points with the first

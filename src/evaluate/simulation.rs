@@ -2,6 +2,7 @@
 
 use crate::framework::execution::{Iet, IetState, Problem, ProblemError, Progress, RunResult, simulate};
 use crate::framework::robot::Chain;
+use crate::framework::whole_run::Trial;
 use crate::framework::world::World;
 
 /// One run in its world.
@@ -50,6 +51,12 @@ impl Simulation {
     #[must_use]
     pub fn progress(&self) -> Progress {
         self.iet.progress()
+    }
+
+    /// Every trial so far of a method that remembers them.
+    #[must_use]
+    pub fn trials(&self) -> &[Trial] {
+        self.iet.log()
     }
 
     /// The chain that moves.

@@ -41,4 +41,13 @@ impl RunService for Service {
         let goals = self.0.run_goals(&id).await.map_err(status)?;
         Ok(Response::new(goals.into()))
     }
+
+    async fn get_run_trials(
+        &self,
+        request: Request<proto::GetRunTrialsRequest>,
+    ) -> Result<Response<proto::RunTrials>, Status> {
+        let id = id(&request.into_inner().id).map_err(status)?;
+        let trials = self.0.run_trials(&id).await.map_err(status)?;
+        Ok(Response::new(trials.into()))
+    }
 }

@@ -107,6 +107,7 @@ fn name(data: &EventData) -> &'static str {
         EventData::State { .. } => "state",
         EventData::Progress { .. } => "progress",
         EventData::Goal { .. } => "goal",
+        EventData::Trial { .. } => "trial",
         EventData::Run { .. } => "run",
         EventData::Resync => "resync",
     }

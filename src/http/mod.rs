@@ -129,6 +129,7 @@ fn resources() -> OpenApiRouter<Api> {
         .at(routes!(runs::list))
         .at(routes!(runs::get))
         .at(routes!(runs::goals))
+        .at(routes!(runs::trials))
         .at(routes!(runs::convergence))
         .at(routes!(runs::trajectory))
         .at(routes!(trajectories::get))

@@ -3,7 +3,7 @@
 use super::extract::{Json, Path, Query};
 use super::problem::Problem;
 use crate::app::id::{JobId, RunId};
-use crate::app::runs::{Convergence, RunFilter, RunGoals, RunView};
+use crate::app::runs::{Convergence, RunFilter, RunGoals, RunTrials, RunView};
 use crate::app::trajectories::TrajectoryView;
 use crate::app::{App, Page, PageQuery};
 use axum::extract::State;
@@ -49,6 +49,14 @@ pub async fn get(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<R
     responses((status = 200, description = "One entry a goal.", body = RunGoals)))]
 pub async fn goals(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunGoals>, Problem> {
     Ok(Json(app.run_goals(&id).await?))
+}
+
+/// Every trial of a run whose method remembers them; none for other methods.
+#[utoipa::path(get, path = "/runs/{id}/trials", operation_id = "getRunTrials", tag = "runs",
+    params(("id" = RunId, Path)),
+    responses((status = 200, description = "In the order they were made.", body = RunTrials)))]
+pub async fn trials(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunTrials>, Problem> {
+    Ok(Json(app.run_trials(&id).await?))
 }
 
 /// How many points.

@@ -7,12 +7,13 @@
 
 use super::checkpoint::Checkpoint;
 use super::held::{Gone, Held};
-use super::outcome::{Marks, finished_run};
-use crate::app::jobs::{EventData, ExecutionWork, GoalProgress, JobProgress, JobView};
+use super::outcome::{Marks, distance, finished_run};
+use crate::app::jobs::{EventData, ExecutionWork, GoalProgress, JobProgress, JobView, TrialProgress};
 use crate::app::ports::{Advance, NewRun, Transition};
 use crate::evaluate::{Pace, Simulation};
 use crate::framework::execution::{GoalResult, Problem, ProblemError, Progress};
 use crate::framework::job::{Event, State};
+use crate::framework::whole_run::Trial;
 use std::sync::Arc;
 use tokio::time::Instant;
 
@@ -65,6 +66,8 @@ struct Attempt<'a> {
     runs: Vec<NewRun>,
     events: Vec<EventData>,
     written: Option<Instant>,
+    /// Trials of the present repetition, as shown.
+    trials: Vec<TrialProgress>,
 }
 
 impl<'a> Attempt<'a> {
@@ -85,6 +88,7 @@ impl<'a> Attempt<'a> {
             runs: Vec::new(),
             events: Vec::new(),
             written: None,
+            trials: Vec::new(),
         }
     }
 
@@ -93,10 +97,14 @@ impl<'a> Attempt<'a> {
         self.obey(state).await?;
         while self.saved.repetition < self.work.repetitions {
             let mut simulation = self.begin().await?;
-            let mut told = simulation.progress().goal_index;
+            let mut told = simulation.progress().results.len();
+            self.trials = self.shown(simulation.trials(), 0);
             loop {
                 let (advanced, progress) = self.slice(simulation).await?;
                 simulation = advanced;
+                let news = self.shown(simulation.trials(), self.trials.len());
+                self.events.extend(news.iter().map(|trial| EventData::Trial { trial: trial.clone() }));
+                self.trials.extend(news);
                 let ended = progress.results.get(told..).unwrap_or_default();
                 for goal in ended {
                     let goal = self.goal(goal);
@@ -165,7 +173,7 @@ impl<'a> Attempt<'a> {
     /// Writes everything there is to write, then does what was asked meanwhile.
     async fn write(&mut self, progress: &Progress, checkpoint: &Checkpoint) -> Result<(), Stop> {
         let shown = self.progress(progress);
-        let brief = JobProgress { finished_goals: Vec::new(), ..shown.clone() };
+        let brief = JobProgress { finished_goals: Vec::new(), trials: Vec::new(), ..shown.clone() };
         self.events.push(EventData::Progress { progress: brief });
         let encoded = checkpoint.encode().map_err(|error| Stop::Failed("checkpoint", error.to_string()))?;
         let step = Advance { progress: Some(shown), checkpoint: Some(encoded), ..self.take_step() };
@@ -248,6 +256,7 @@ impl<'a> Attempt<'a> {
             total_evaluations: self.saved.evaluations_before + progress.evaluations,
             discrepancy: progress.best_discrepancy,
             finished_goals: progress.results.iter().map(|goal| self.goal(goal)).collect(),
+            trials: if progress.evaluations == 0 { Vec::new() } else { self.trials.clone() },
         }
     }
 
@@ -267,6 +276,7 @@ impl<'a> Attempt<'a> {
             total_evaluations: self.saved.evaluations_before,
             discrepancy: last.map(|run| run.view.discrepancy),
             finished_goals: results.iter().map(|goal| GoalProgress::of_run(repetition, goal)).collect(),
+            trials: self.trials.clone(),
         }
     }
 
@@ -279,7 +289,20 @@ impl<'a> Attempt<'a> {
             stop_reason: goal.stop_reason,
             joints: goal.joints.clone(),
             observation: goal.observation.clone(),
+            residual: Some(distance(&goal.observation, self.problem.goals.row(goal.index))),
         }
+    }
+
+    /// Trials from `first` on as they are shown.
+    fn shown(&self, trials: &[Trial], first: usize) -> Vec<TrialProgress> {
+        let goals = &self.problem.goals;
+        let show = |(index, trial): (usize, &Trial)| TrialProgress {
+            repetition: self.saved.repetition,
+            index: narrow(index),
+            goal: narrow(trial.goal),
+            residual: trial.observation.as_ref().map(|seen| distance(seen, goals.row(trial.goal))),
+        };
+        trials.iter().enumerate().skip(first).map(show).collect()
     }
 }
 

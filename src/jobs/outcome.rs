@@ -3,7 +3,7 @@
 use crate::app::Timestamp;
 use crate::app::id::{JobId, RunId, TrajectoryId};
 use crate::app::jobs::ExecutionWork;
-use crate::app::ports::NewRun;
+use crate::app::ports::{KeptTrials, NewRun};
 use crate::app::runs::{ConvergencePoint, RunGoal, RunGoals, RunView};
 use crate::app::trajectories::{TrajectoryPoint, TrajectoryView, digest, plan_through};
 use crate::evaluate::Simulation;
@@ -31,6 +31,7 @@ pub(super) fn finished_run(
     marks: Marks,
 ) -> Result<NewRun, ProblemError> {
     let chain = simulation.chain().clone();
+    let trials = KeptTrials { setting: work.setting.clone(), trials: simulation.trials().to_vec() };
     let result = simulation.finish()?;
     let id = RunId::from_uuid(marks.run);
     let (trajectory, trajectory_problem) = match plan_through(&chain, &result.waypoints()) {
@@ -65,7 +66,7 @@ pub(super) fn finished_run(
         joint_names: chain.genes().iter().map(|gene| gene.name.clone()).collect(),
         goals: goals(&result, work),
     };
-    Ok(NewRun { view, goals, convergence: convergence(&result), trajectory })
+    Ok(NewRun { view, goals, convergence: convergence(&result), trajectory, trials })
 }
 
 fn trajectory(
@@ -111,12 +112,18 @@ fn goals(result: &RunResult, work: &ExecutionWork) -> Vec<RunGoal> {
         joints: goal.joints.clone(),
         observation: goal.observation.clone(),
         goal: wanted.to_vec(),
+        residual: Some(distance(&goal.observation, wanted)),
         winner: goal.provenance,
         true_discrepancy: goal.true_discrepancy,
         feasible: goal.feasible,
         provenance: goal.tally,
     });
     goals.collect()
+}
+
+/// Euclidean, in the features' unit.
+pub(super) fn distance(observation: &[f64], goal: &[f64]) -> f64 {
+    observation.iter().zip(goal).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
 }
 
 /// One point an improvement, in evaluations since the run began.

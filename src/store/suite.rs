@@ -7,8 +7,8 @@ use crate::app::jobs::{
     CreateJob, EventData, GeneralizationRequest, JobFilter, JobKind, JobProgress, JobResult, JobView, Work,
 };
 use crate::app::ports::{
-    Advance, Claimed, IdempotencyKey, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Store, StoreError,
-    Submitted, Transition, Usage,
+    Advance, Claimed, IdempotencyKey, KeptTrials, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Store,
+    StoreError, Submitted, Transition, Usage,
 };
 use crate::app::robots::RobotView;
 use crate::app::runs::{RunFilter, RunGoals, RunView};
@@ -19,6 +19,7 @@ use crate::framework::job::{Event, State};
 use crate::framework::optimizer::Tally;
 use crate::framework::recognition::Metric;
 use crate::framework::robot::{ChainSummary, RobotSpec, RobotSummary};
+use crate::framework::whole_run::Trial;
 use std::time::Duration;
 use uuid::Uuid;
 
@@ -144,7 +145,7 @@ fn run(number: u128, job: &JobId, repetition: u32) -> NewRun {
         created_at: AT,
     };
     let goals = RunGoals { run: id, features: Vec::new(), joint_names: Vec::new(), goals: Vec::new() };
-    NewRun { view, goals, convergence: Vec::new(), trajectory: None }
+    NewRun { view, goals, convergence: Vec::new(), trajectory: None, trials: KeptTrials::default() }
 }
 
 async fn submitted(store: &dyn Store, number: u128) -> JobId {
@@ -320,7 +321,9 @@ pub(crate) async fn ends_a_job_once_with_its_results(store: &dyn Store) {
     let id = submitted(store, 1).await;
     let claim = claimed(store).await.unwrap().claim;
     store.advance(&claim, transition(Event::Start), AT).await.unwrap();
-    let runs = vec![run(5, &id, 0), run(4, &id, 1)];
+    let mut runs = vec![run(5, &id, 0), run(4, &id, 1)];
+    let trial = Trial { joints: vec![0.1 + 0.2], observation: None, goal: 2 };
+    runs[0].trials = KeptTrials { setting: Some("arm".to_owned()), trials: vec![trial] };
     let step = Advance { runs: runs.clone(), ..transition(Event::Succeed) };
     assert_eq!(store.advance(&claim, step.clone(), AT).await.unwrap(), State::Succeeded);
     assert!(matches!(store.advance(&claim, step, AT).await, Err(StoreError::LeaseLost { .. })));
@@ -332,6 +335,11 @@ pub(crate) async fn ends_a_job_once_with_its_results(store: &dyn Store) {
     assert_eq!(store.run(&runs[0].view.id).await.unwrap(), runs[0].view);
     let of_job = RunFilter { job: Some(id.clone()) };
     assert_eq!(store.runs(&of_job, &page(9, "")).await.unwrap().len(), 2);
+    assert_eq!(store.run_trials(&runs[0].view.id).await.unwrap(), runs[0].trials);
+    assert_eq!(store.run_trials(&runs[1].view.id).await.unwrap(), KeptTrials::default());
+    let kept = (runs[0].view.clone(), runs[0].trials.trials.clone());
+    assert_eq!(store.runs_on("arm", 9).await.unwrap(), [kept]);
+    assert!(store.runs_on("leg", 9).await.unwrap().is_empty());
     assert!(claimed(store).await.is_none());
     assert_eq!(states(store, &id).await.iter().filter(|state| state.is_final()).count(), 1);
 }

@@ -6,3 +6,4 @@ mod experiment;
 mod kill;
 mod server;
 mod stop;
+mod whole_run;

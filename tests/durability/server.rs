@@ -88,12 +88,17 @@ impl Server {
         }
     }
 
+    /// Uploads a demonstration.
+    pub async fn upload(&self, file_name: &str, csv: String) -> Value {
+        let path = format!("/api/v1/demonstrations?file_name={file_name}");
+        let upload = self.request(reqwest::Method::POST, &path).header("content-type", "text/csv");
+        serde_json::from_str(&upload.body(csv).send().await.unwrap().text().await.unwrap()).unwrap()
+    }
+
     /// Uploads a small action, the shipped arm and the tool's world; returns what an execution names.
     pub async fn set_up(&self) -> Value {
         let csv = "time_s,x [mm],y [mm],z [mm]\n0,460,-500,304\n1,420,-590,300\n2,320,-620,294\n3,300,-480,300\n";
-        let upload = self.request(reqwest::Method::POST, "/api/v1/demonstrations?file_name=arc.csv");
-        let answer = upload.header("content-type", "text/csv").body(csv).send().await.unwrap();
-        let demonstration: Value = serde_json::from_str(&answer.text().await.unwrap()).unwrap();
+        let demonstration = self.upload("arc.csv", csv.to_owned()).await;
         let request = json!({"kind": "generalization", "name": "arc", "t_min_s": 0.75,
             "demonstrations": [demonstration["id"]]});
         let job = self.post("/api/v1/jobs", &request).await;

@@ -6,6 +6,7 @@ mod auth;
 mod clients;
 mod errors;
 mod events;
+mod few_evaluations;
 mod health;
 mod jobs;
 mod main_job;

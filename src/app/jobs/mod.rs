@@ -1,5 +1,6 @@
 //! Jobs: submitted once, run durably, watched by events with a durable sequence.
 
+mod earlier;
 mod estimate;
 mod resolve;
 mod types;
@@ -7,8 +8,8 @@ mod watch;
 mod work;
 
 pub use types::{
-    CostEstimate, CreateJob, EventData, EventPage, ExecutionRequest, GeneralizationRequest, GoalProgress, JobEvent,
-    JobFailure, JobFilter, JobKind, JobProgress, JobResult, JobView, Validation,
+    CostEstimate, CreateJob, EarlierRun, EventData, EventPage, ExecutionRequest, GeneralizationRequest, GoalProgress,
+    JobEvent, JobFailure, JobFilter, JobKind, JobProgress, JobResult, JobView, TrialProgress, Validation,
 };
 pub use work::{ExecutionWork, Work};
 

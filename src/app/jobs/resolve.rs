@@ -1,6 +1,7 @@
 //! From a request to all a job needs: references are looked up, what was left open is filled in, and the whole is
 //! checked as the worker will check it. The same code answers a dry run.
 
+use super::earlier::setting;
 use super::estimate::estimate;
 use super::{CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work};
 use crate::app::id::ExperimentId;
@@ -144,15 +145,17 @@ impl App {
             return Err(AppError::invalid(errors));
         };
         let goals = Goals::new(goals.features, &goals.goals).map_err(AppError::internal)?;
-        let problem = Problem {
+        let mut problem = Problem {
             goals,
             urdf,
-            robot: robot.spec,
+            robot: robot.spec.clone(),
             world: world.spec,
             execution: request.execution.clone(),
             earlier: Vec::new(),
         };
         let seed = request.seed.unwrap_or_else(|| self.ports.ids.seed());
+        let setting = setting(&robot, &problem, seed, request.repetitions);
+        problem.earlier = self.earlier_trials(&mut request, setting.as_deref()).await?;
         let problem = compute(move || match Iet::new(&problem, seed) {
             Ok(_) => Ok(problem),
             Err(error) => Err(AppError::field("/execution", "invalid_problem", chain_text(&error))),
@@ -166,6 +169,7 @@ impl App {
             robot: request.robot.clone(),
             world: request.world.clone(),
             problem,
+            setting,
             seed,
             repetitions: request.repetitions,
             max_evaluations_per_s: request.max_evaluations_per_s,
@@ -209,7 +213,7 @@ fn look_up<T>(
 }
 
 /// A reference to nothing is a wrong place of the request; every other error is one.
-fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, AppError> {
+pub(super) fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, AppError> {
     match error {
         StoreError::NotFound { .. } => Ok(FieldError::new(pointer, "not_found", error.to_string())),
         error => Err(error.into()),

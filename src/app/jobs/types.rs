@@ -93,6 +93,24 @@ pub struct ExecutionRequest {
     /// Slows the job down to about so many evaluations a second, to be watched.
     #[serde(default)]
     pub max_evaluations_per_s: Option<f64>,
+    /// Runs on the same robot, with the same tool, world and features, whose trials the method `model` begins with,
+    /// newest first. When absent they are found, and told here; an empty list is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub earlier_runs: Option<Vec<EarlierRun>>,
+}
+
+/// A run whose trials another one begins with.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EarlierRun {
+    /// The run.
+    pub run: RunId,
+    /// Its job; filled in.
+    #[serde(default)]
+    pub job: Option<JobId>,
+    /// How many of its trials are used, the latest ones; filled in.
+    #[serde(default)]
+    pub trials: Option<u32>,
 }
 
 fn one() -> u32 {
@@ -157,6 +175,22 @@ pub struct JobProgress {
     pub discrepancy: Option<f64>,
     /// Finished goals of the present repetition; left out of events, which tell each goal once.
     pub finished_goals: Vec<GoalProgress>,
+    /// Trials of the present repetition, where the method remembers each one; left out of events likewise.
+    #[serde(default)]
+    pub trials: Vec<TrialProgress>,
+}
+
+/// One trial of a method that owns the whole run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct TrialProgress {
+    /// Repetition, from 0.
+    pub repetition: u32,
+    /// Trial, from 0.
+    pub index: u32,
+    /// The goal it was made for, from 0.
+    pub goal: u32,
+    /// Distance of what was observed from that goal (Euclidean, features' unit); none when the observation was lost.
+    pub residual: Option<f64>,
 }
 
 /// One finished goal.
@@ -176,6 +210,9 @@ pub struct GoalProgress {
     pub joints: Vec<f64>,
     /// What was observed there.
     pub observation: Vec<f64>,
+    /// Distance of the observation from the goal (Euclidean, features' unit): for a goal out of reach the best found.
+    #[serde(default)]
+    pub residual: Option<f64>,
 }
 
 impl GoalProgress {
@@ -190,6 +227,7 @@ impl GoalProgress {
             stop_reason: goal.stop_reason,
             joints: goal.joints.clone(),
             observation: goal.observation.clone(),
+            residual: goal.residual,
         }
     }
 }
@@ -262,6 +300,11 @@ pub enum EventData {
     Goal {
         /// The goal.
         goal: GoalProgress,
+    },
+    /// A method that owns the whole run made a trial.
+    Trial {
+        /// The trial.
+        trial: TrialProgress,
     },
     /// A repetition ended.
     Run {

@@ -31,6 +31,9 @@ pub struct ExecutionWork {
     pub world: WorldId,
     /// Goals, robot, world and method.
     pub problem: Problem,
+    /// What decides what a pose shows, as a digest: later runs with the same one may begin with these runs' trials.
+    #[serde(default)]
+    pub setting: Option<String>,
     /// Seed of repetition 0; repetition r uses seed + r.
     pub seed: u64,
     /// Number of runs.

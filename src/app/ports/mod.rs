@@ -9,6 +9,6 @@ pub use clock::Clock;
 pub use events::{Events, LocalEvents, Wake};
 pub use ids::{Ids, SEED_BOUND};
 pub use store::{
-    Advance, Claim, Claimed, IdempotencyKey, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Store,
-    StoreError, Submitted, Transition, Usage,
+    Advance, Claim, Claimed, IdempotencyKey, KeptTrials, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun,
+    Store, StoreError, Submitted, Transition, Usage,
 };

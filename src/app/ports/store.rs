@@ -19,6 +19,7 @@ use crate::app::worlds::WorldView;
 use crate::app::{AppError, ErrorKind, Keyset, Timestamp};
 use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::{Event, InvalidTransition, State};
+use crate::framework::whole_run::Trial;
 use async_trait::async_trait;
 use std::sync::Arc;
 use std::time::Duration;
@@ -228,6 +229,17 @@ pub struct NewRun {
     pub convergence: Vec<ConvergencePoint>,
     /// Its trajectory.
     pub trajectory: Option<TrajectoryView>,
+    /// Its trials, where the method remembers them.
+    pub trials: KeptTrials,
+}
+
+/// The trials of a run.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct KeptTrials {
+    /// What decides what a pose shows, as a digest; none where that changes with time.
+    pub setting: Option<String>,
+    /// In the order they were made.
+    pub trials: Vec<Trial>,
 }
 
 /// What a worker writes in one transaction, in this order.
@@ -343,6 +355,10 @@ pub trait Store: Send + Sync {
     async fn run_goals(&self, id: &RunId) -> Result<RunGoals, StoreError>;
     /// Its convergence.
     async fn run_convergence(&self, id: &RunId) -> Result<Vec<ConvergencePoint>, StoreError>;
+    /// Its trials; none of a run without any, or of no run.
+    async fn run_trials(&self, id: &RunId) -> Result<KeptTrials, StoreError>;
+    /// Runs with trials of this setting, newest first, at most `limit`.
+    async fn runs_on(&self, setting: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError>;
     /// Runs.
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError>;
     /// One experiment.

@@ -159,6 +159,7 @@ async fn execute(
         seed: Some(scene.seed),
         repetitions: 1,
         max_evaluations_per_s: Some(scene.evaluations_per_s),
+        earlier_runs: None,
     };
     app.create_job(CreateJob::Execution(Box::new(request)), None).await.map(drop)
 }

@@ -92,13 +92,13 @@ pub enum ProblemError {
         /// Number needed.
         expected: usize,
     },
-    /// Every trial of a goal failed.
-    #[error("goal {goal}: none of {failures} trials could be executed; check the robot and its limits")]
+    /// Every trial of a goal failed or was not seen.
+    #[error("goal {goal}: none of {trials} trials was executed and seen; check the robot, its limits and its sensors")]
     NothingExecuted {
         /// Goal index from 0.
         goal: usize,
-        /// Trials that failed.
-        failures: u64,
+        /// Trials made.
+        trials: u64,
     },
     /// No candidate of a goal satisfied the constraints.
     #[error(

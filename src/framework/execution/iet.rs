@@ -11,7 +11,7 @@
 
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
-use super::observations::Observations;
+use super::observations::{Observations, Seen};
 use super::owner::Owner;
 use super::result::{GoalResult, Progress, RunResult, TracePoint, digest, record};
 use super::setup::Setup;
@@ -218,11 +218,11 @@ impl Iet {
             return self.tell_owner(observations);
         }
         let goal_index = self.results.len();
-        for (id, joints, observation) in observations.iter() {
+        for (id, joints, seen) in observations.iter() {
             if id == CONFIRMATION {
-                return self.tell_confirmation(observation);
+                return self.tell_confirmation(seen);
             }
-            self.tell_one(id, joints, observation, observations)?;
+            self.tell_one(id, joints, seen, observations)?;
             if self.results.len() != goal_index || self.goal.ended.is_some() {
                 return Ok(());
             }
@@ -239,7 +239,8 @@ impl Iet {
     /// As [`Iet::tell`], for a method that owns the run: a lost observation costs an evaluation too.
     fn tell_owner(&mut self, observations: &Observations) -> Result<(), ProblemError> {
         let Some(owner) = &mut self.owner else { return Ok(()) };
-        if let Some((_, joints, observation)) = observations.iter().find(|trial| trial.0 == self.evaluations) {
+        if let Some((_, joints, seen)) = observations.iter().find(|trial| trial.0 == self.evaluations) {
+            let observation = seen.features();
             let seen = observation.map(|values| self.setup.select.iter().map(|&i| values[i]).collect::<Vec<f64>>());
             owner.tell(joints, seen.as_deref());
             self.evaluations += 1;
@@ -261,20 +262,24 @@ impl Iet {
         &mut self,
         id: u64,
         joints: &[f64],
-        observation: Option<&[f64]>,
+        seen: Seen<'_>,
         observations: &Observations,
     ) -> Result<(), ProblemError> {
         let goal_index = self.results.len();
-        if let Some(observation) = observation {
+        let provenance = observations.provenance();
+        if seen == Seen::Failed {
+            self.goal.failures += 1;
+        } else {
+            self.evaluations += 1;
+            self.goal.evaluations += 1;
+            self.goal.real += u64::from(provenance == Provenance::Real);
+        }
+        if let Some(observation) = seen.features() {
             self.see(observation);
             let Some(optimizer) = &mut self.optimizer else { return Ok(()) };
             let noise = self.setup.noise(self.seed, goal_index, id);
             let fitness = self.discrepancy.of(&self.seen) + noise;
-            let provenance = observations.provenance();
             let feasible = optimizer.is_feasible(id);
-            self.evaluations += 1;
-            self.goal.evaluations += 1;
-            self.goal.real += u64::from(provenance == Provenance::Real);
             if feasible && self.goal.best.is_none_or(|best| fitness < best) {
                 self.goal.best = Some(fitness);
                 let point = TracePoint { evaluations: self.goal.evaluations, discrepancy: fitness };
@@ -295,11 +300,8 @@ impl Iet {
                 let winner = Hit { fitness, joints: joints.to_vec(), observation, provenance, confirmed: None };
                 return self.finish_goal(StopReason::Tolerance, winner);
             }
-        } else {
-            self.goal.failures += 1;
-            if let Some(optimizer) = &mut self.optimizer {
-                optimizer.tell(id, Outcome::Failed);
-            }
+        } else if let Some(optimizer) = &mut self.optimizer {
+            optimizer.tell(id, Outcome::Failed);
         }
         self.end_goal_if_over()
     }
@@ -312,9 +314,9 @@ impl Iet {
         let reason = optimizer.stop().or(used_up.then_some(StopReason::MaxEvaluations));
         let Some(reason) = self.goal.ended.or(reason) else { return Ok(()) };
         let Some(best) = optimizer.best() else {
-            let (goal, failures) = (self.results.len(), self.goal.failures);
+            let goal = self.results.len();
             let nearest = optimizer.nearest_violations().map(<[f64]>::to_vec);
-            return Err(nearest.map_or(ProblemError::NothingExecuted { goal, failures }, |nearest| {
+            return Err(nearest.map_or(ProblemError::NothingExecuted { goal, trials }, |nearest| {
                 ProblemError::Infeasible { goal, nearest, evaluations: self.evaluations }
             }));
         };
@@ -326,17 +328,25 @@ impl Iet {
         Ok(())
     }
 
-    /// The winner that was never executed has now been: its goal ends. No evaluation of the search.
-    fn tell_confirmation(&mut self, observation: Option<&[f64]>) -> Result<(), ProblemError> {
-        let (goal, failures) = (self.results.len(), self.goal.failures + 1);
-        let Some(observation) = observation else { return Err(ProblemError::NothingExecuted { goal, failures }) };
-        self.see(observation);
+    /// The winner that was never executed has now been: its goal ends. No evaluation of the search. Where the
+    /// observation is lost, what the winner really does stays unknown.
+    fn tell_confirmation(&mut self, seen: Seen<'_>) -> Result<(), ProblemError> {
+        if seen == Seen::Failed {
+            let (goal, trials) = (self.results.len(), self.goal.evaluations + self.goal.failures + 1);
+            return Err(ProblemError::NothingExecuted { goal, trials });
+        }
+        if let Some(observation) = seen.features() {
+            self.see(observation);
+        }
         let Some(optimizer) = &self.optimizer else { return Ok(()) };
         let (Some(best), Some(reason)) = (optimizer.best(), self.goal.ended.or(optimizer.stop())) else {
             return Ok(());
         };
-        let confirmed = Some(self.discrepancy.of(&self.seen));
-        let winner = Hit { observation: self.seen.clone(), confirmed, ..best.into() };
+        let mut winner = Hit::from(best);
+        if seen != Seen::Lost {
+            winner.confirmed = Some(self.discrepancy.of(&self.seen));
+            winner.observation.clone_from(&self.seen);
+        }
         self.finish_goal(reason, winner)
     }
 

@@ -7,6 +7,8 @@ mod error;
 mod iet;
 mod observations;
 mod owner;
+#[cfg(test)]
+mod real_tests;
 mod result;
 mod setup;
 mod simulate;
@@ -18,7 +20,7 @@ mod tests;
 pub use discrepancy::PartialDiscrepancy;
 pub use error::ProblemError;
 pub use iet::Iet;
-pub use observations::Observations;
+pub use observations::{Observations, Seen};
 pub use result::{GoalResult, Progress, RunResult, TracePoint};
 pub use simulate::{run, run_while, simulate};
 pub use spec::{ExecutionSpec, Problem};

@@ -2,6 +2,28 @@
 
 use crate::framework::optimizer::Provenance;
 
+/// What was seen of a candidate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Seen<'a> {
+    /// All features of the world.
+    Features(&'a [f64]),
+    /// It was executed, but a value is not finite: the observation is lost. An evaluation all the same.
+    Lost,
+    /// It could not be executed: no evaluation.
+    Failed,
+}
+
+impl<'a> Seen<'a> {
+    /// The features, where there are any.
+    #[must_use]
+    pub fn features(self) -> Option<&'a [f64]> {
+        match self {
+            Self::Features(values) => Some(values),
+            Self::Lost | Self::Failed => None,
+        }
+    }
+}
+
 /// Observations (all features of the world) of candidates, or their failures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observations {
@@ -45,7 +67,7 @@ impl Observations {
         self.push(id, joints, false)
     }
 
-    /// Candidate `id` could not be executed or observed at `joints`.
+    /// Candidate `id` could not be executed at `joints`.
     ///
     /// # Panics
     /// If `joints` has another length than genes.
@@ -69,12 +91,16 @@ impl Observations {
         self.provenance
     }
 
-    /// Id, joints and observation of each candidate; no observation where it failed or a value is not finite.
-    pub fn iter(&self) -> impl Iterator<Item = (u64, &[f64], Option<&[f64]>)> {
+    /// Id, joints and fate of each candidate.
+    pub fn iter(&self) -> impl Iterator<Item = (u64, &[f64], Seen<'_>)> {
         let rows = self.joints.chunks_exact(self.genes).zip(self.values.chunks_exact(self.features));
         self.ids.iter().zip(&self.failed).zip(rows).map(|((&id, &failed), (joints, values))| {
-            let seen = !failed && values.iter().all(|v| v.is_finite());
-            (id, joints, seen.then_some(values))
+            let seen = match failed {
+                true => Seen::Failed,
+                false if values.iter().all(|v| v.is_finite()) => Seen::Features(values),
+                false => Seen::Lost,
+            };
+            (id, joints, seen)
         })
     }
 }

@@ -76,8 +76,7 @@ impl Owner {
         for (index, outcome) in outcomes.iter().enumerate() {
             let of_goal = |trial: &&Trial| trial.goal == index;
             let evaluations = log.iter().filter(of_goal).count() as u64;
-            let failures = log.iter().filter(of_goal).filter(|t| t.observation.is_none()).count() as u64;
-            let nothing = ProblemError::NothingExecuted { goal: index, failures };
+            let nothing = ProblemError::NothingExecuted { goal: index, trials: log.len() as u64 };
             let Some(trial) = outcome.trial.map(|t| &log[t]) else { return Err(nothing) };
             let Some(observation) = trial.observation.clone() else { return Err(nothing) };
             let value = discrepancy.of(&observation);
@@ -88,7 +87,7 @@ impl Owner {
             results.push(GoalResult {
                 index,
                 evaluations,
-                failures,
+                failures: 0,
                 discrepancy: value,
                 stop_reason: if outcome.reached { StopReason::Tolerance } else { StopReason::OutOfReach },
                 joints: trial.joints.clone(),

@@ -21,7 +21,7 @@ pub struct GoalResult {
     pub index: usize,
     /// Evaluations of this goal.
     pub evaluations: u64,
-    /// Trials of this goal that failed; they are no evaluations.
+    /// Trials of this goal that could not be executed; they are no evaluations.
     pub failures: u64,
     /// Discrepancy of the whole partial observation O_1..O_j against X_1..X_j, features' unit.
     pub discrepancy: f64,

@@ -2,7 +2,7 @@
 
 use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::generalization::Goals;
-use crate::framework::optimizer::MethodSpec;
+use crate::framework::optimizer::{MethodChoice, MethodSpec, method_or_name};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;
 use crate::framework::whole_run::Trial;
@@ -33,7 +33,9 @@ pub struct Problem {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExecutionSpec {
-    /// The optimiser and its parameters.
+    /// The optimiser and its parameters; the name alone is the method with its defaults.
+    #[serde(deserialize_with = "method_or_name")]
+    #[schema(value_type = MethodChoice)]
     pub method: MethodSpec,
     /// How a candidate's discrepancy is measured.
     #[serde(default)]

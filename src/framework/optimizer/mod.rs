@@ -9,6 +9,7 @@
 mod affg_pso;
 mod batch;
 mod bounds;
+mod choice;
 mod cma_es;
 mod fi_pso;
 mod granules;
@@ -23,6 +24,7 @@ mod swarm;
 pub use affg_pso::AffgState;
 pub use batch::Batch;
 pub use bounds::BoundsRule;
+pub use choice::{MethodChoice, method_or_name};
 pub use cma_es::{CmaEs, CmaEsSpec, CmaEsState};
 pub(in crate::framework) use hall::Hall;
 pub use rng::RandomStream;

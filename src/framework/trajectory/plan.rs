@@ -103,6 +103,17 @@ fn duration(limits: &[JointLimits], from: &[f64], to: &[f64], speed: f64) -> f64
     least_s
 }
 
+/// Writes where the joints are `lag_s` before they come to rest at `to`, on their quickest way there from `from` (n
+/// values, rad or m).
+pub fn late(limits: &[JointLimits], from: &[f64], to: &[f64], lag_s: f64, pose: &mut [f64]) {
+    let duration_s = duration(limits, from, to, 1.0);
+    let u = if duration_s > 0.0 { (1.0 - lag_s / duration_s).clamp(0.0, 1.0) } else { 1.0 };
+    let share = u * u * u * (10.0 + u * (6.0 * u - 15.0));
+    pose.iter_mut()
+        .zip(from.iter().zip(to))
+        .for_each(|(p, (a, b))| *p = if share < 1.0 { a + (b - a) * share } else { *b });
+}
+
 fn sample(start_s: f64, duration_s: f64, u: f64, from: &[f64], to: &[f64]) -> Point {
     let position = u * u * u * (10.0 + u * (6.0 * u - 15.0));
     let velocity = 30.0 * u * u * (1.0 - u) * (1.0 - u) / duration_s;
@@ -117,7 +128,8 @@ fn sample(start_s: f64, duration_s: f64, u: f64, from: &[f64], to: &[f64]) -> Po
     }
 }
 
-fn limits(chain: &Chain) -> (Vec<JointLimits>, Vec<String>) {
+/// Velocity and acceleration limits of a chain's joints, with a note on each that had to be assumed.
+pub fn limits(chain: &Chain) -> (Vec<JointLimits>, Vec<String>) {
     let mut notes = Vec::new();
     let mut assumed = |joint: &str, what: &str, value: f64, unit: &str| {
         notes.push(format!("joint {joint:?} has no {what} limit: {value} {unit} assumed"));

@@ -33,6 +33,7 @@ pub use space::{Allows, Axis, Space};
 pub use steps::{StepLimits, Stepped, Targets};
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
 /// A map from joints to features: a simulated world, right or wrong, as a prior mean.
 pub trait FeatureMap: Send {
@@ -47,7 +48,7 @@ impl<F: FnMut(&[f64], &mut [f64]) + Send> FeatureMap for F {
 }
 
 /// One executed pose and what was seen.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Trial {
     /// Joints as commanded, rad or m.
     pub joints: Vec<f64>,

@@ -47,4 +47,14 @@ pub enum WorldError {
         /// Number of cells along it.
         count: u32,
     },
+    /// A number of the simulated reality out of its range.
+    #[error("reality.{field} is {value:?}: give {expected}")]
+    Reality {
+        /// The field.
+        field: &'static str,
+        /// The value given.
+        value: f64,
+        /// The range.
+        expected: &'static str,
+    },
 }

@@ -1,4 +1,5 @@
-//! A simulated *real* world: the robot is not quite as described, sensors and joints are noisy, observations get lost.
+//! A simulated *real* world: the robot is not quite as described, sensors and joints are noisy, observations come late or
+//! get lost.
 //!
 //! Invariants: what is drawn depends on the seed, and the noise of a trial on the seed and its pose, alone: slices,
 //! resumes and threads change no bit. A lost observation is NaN in every feature.
@@ -6,6 +7,7 @@
 use super::{World, WorldError, WorldSpec, build};
 use crate::framework::Feature;
 use crate::framework::robot::Chain;
+use crate::framework::trajectory::{JointLimits, late, limits};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
@@ -24,34 +26,91 @@ pub struct RealitySpec {
     pub sensor_noise: f64,
     /// Standard deviation of each joint about its command, degrees.
     pub joint_noise_deg: f64,
-    /// Share of the trials whose observation is lost.
+    /// Share of the trials whose observation is lost, 0 or more and below 1; such a trial is an evaluation too.
     pub lost_share: f64,
+    /// Age of an observation when it arrives, seconds. The arm is seen where it was `latency_s - settle_s` before it
+    /// came to rest, on its quickest way from the pose before: the last one repeated for the trial, else home.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub latency_s: f64,
+    /// How long the arm rests before it is observed, seconds: from the latency on, observations are of the pose itself.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub settle_s: f64,
+    /// Picks the links and base of this robot: the same robot in each job that gives the same number. The seed of the
+    /// run when absent, so that each run meets a robot of its own. Noise depends on the seed of the run in any case.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
 }
 
-/// The world of `spec` around a robot that is off from `chain` as `reality` and `seed` say.
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+impl RealitySpec {
+    /// Whether links or base are drawn, so that the seed makes another robot.
+    #[must_use]
+    pub fn is_distorted(&self) -> bool {
+        self.link_share > 0.0 || self.base_shift_m > 0.0
+    }
+
+    fn check(&self) -> Result<(), WorldError> {
+        let ranges = [
+            ("link_share", self.link_share, 0.0..=0.9, "0 to 0.9"),
+            ("base_shift_m", self.base_shift_m, 0.0..=1e3, "0 to 1000 m"),
+            ("sensor_noise", self.sensor_noise, 0.0..=f64::MAX, "0 or more"),
+            ("joint_noise_deg", self.joint_noise_deg, 0.0..=360.0, "0 to 360 degrees"),
+            ("lost_share", self.lost_share, 0.0..=0.99, "0 to 0.99"),
+            ("latency_s", self.latency_s, 0.0..=3600.0, "0 to 3600 s"),
+            ("settle_s", self.settle_s, 0.0..=3600.0, "0 to 3600 s"),
+        ];
+        let wrong = ranges.into_iter().find(|(_, value, range, _)| !range.contains(value));
+        wrong.map_or(Ok(()), |(field, value, _, expected)| Err(WorldError::Reality { field, value, expected }))
+    }
+}
+
+/// The world of `spec` around a robot that is off from `chain` as `reality` says; `seed` is the run's.
 ///
 /// # Errors
-/// [`WorldError`] as [`build`].
+/// [`WorldError`] as [`build`], and for a number of `reality` out of its range.
 pub fn build_real(
     spec: &WorldSpec,
     chain: &Chain,
     reality: &RealitySpec,
     seed: u64,
 ) -> Result<Box<dyn World>, WorldError> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    reality.check()?;
+    let mut random = ChaCha8Rng::seed_from_u64(reality.seed.unwrap_or(seed));
     let mut off = || 2.0 * random.random::<f64>() - 1.0;
     let scales: Vec<f64> = (0..chain.link_count()).map(|_| 1.0 + reality.link_share * off()).collect();
     let direction = nalgebra::Vector3::new(off(), off(), off());
     let shift = direction.try_normalize(1e-9).unwrap_or_default() * reality.base_shift_m;
     let inner = build(spec, &chain.distorted(&scales, shift.into()))?;
-    Ok(Box::new(Real { inner, reality: reality.clone(), seed, moved: vec![0.0; chain.len()] }))
+    Ok(Box::new(Real {
+        effect: vec![0.0; inner.features().len()],
+        inner,
+        reality: reality.clone(),
+        seed,
+        limits: limits(chain).0,
+        home: chain.home().to_vec(),
+        before: chain.home().to_vec(),
+        moved: vec![0.0; chain.len()],
+        seen: vec![0.0; chain.len()],
+    }))
 }
 
 struct Real {
     inner: Box<dyn World>,
     reality: RealitySpec,
     seed: u64,
+    limits: Vec<JointLimits>,
+    home: Vec<f64>,
+    /// Where the arm rested before the trial.
+    before: Vec<f64>,
+    /// Where the arm comes to rest.
     moved: Vec<f64>,
+    /// Where it is when it is observed.
+    seen: Vec<f64>,
+    /// What a commit shows: scratch, for the observation is of `seen`.
+    effect: Vec<f64>,
 }
 
 fn gaussian(random: &mut impl Rng) -> f64 {
@@ -60,7 +119,7 @@ fn gaussian(random: &mut impl Rng) -> f64 {
 }
 
 impl Real {
-    /// Where the joints really go, and the stream of the trial's noise.
+    /// Sets where the joints really go and where they are seen; returns the stream of the trial's noise.
     fn act(&mut self, joints: &[f64]) -> ChaCha8Rng {
         let mut word = self.seed ^ 0x9E37_79B9_7F4A_7C15;
         for joint in joints {
@@ -69,6 +128,12 @@ impl Real {
         let mut random = ChaCha8Rng::seed_from_u64(word);
         for (moved, joint) in self.moved.iter_mut().zip(joints) {
             *moved = joint + self.reality.joint_noise_deg.to_radians() * gaussian(&mut random);
+        }
+        let lag_s = self.reality.latency_s - self.reality.settle_s;
+        if lag_s > 0.0 {
+            late(&self.limits, &self.before, &self.moved, lag_s, &mut self.seen);
+        } else {
+            self.seen.copy_from_slice(&self.moved);
         }
         random
     }
@@ -90,21 +155,97 @@ impl World for Real {
 
     fn reset(&mut self) {
         self.inner.reset();
+        self.before.copy_from_slice(&self.home);
     }
 
     fn observe(&mut self, joints: &[f64], observation: &mut [f64]) {
         let random = self.act(joints);
-        self.inner.observe(&self.moved, observation);
+        self.inner.observe(&self.seen, observation);
         self.sense(random, observation);
     }
 
     fn commit(&mut self, joints: &[f64], observation: &mut [f64]) {
         let random = self.act(joints);
-        self.inner.commit(&self.moved, observation);
+        self.inner.observe(&self.seen, observation);
+        self.inner.commit(&self.moved, &mut self.effect);
+        self.before.copy_from_slice(&self.moved);
         self.sense(random, observation);
     }
 
     fn cells(&self) -> Option<&[u64]> {
         self.inner.cells()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::framework::preset::shipped;
+    use crate::framework::robot::RobotModel;
+    use crate::framework::trajectory::{PlanSpec, plan};
+    use rstest::rstest;
+
+    fn wax() -> (WorldSpec, Chain) {
+        let problem = shipped("wax").unwrap().problem;
+        let model = RobotModel::from_urdf(&problem.urdf).unwrap();
+        (problem.world, Chain::new(&model, &problem.robot).unwrap())
+    }
+
+    fn observed(reality: &RealitySpec, seed: u64, joints: &[f64]) -> Vec<f64> {
+        let (spec, chain) = wax();
+        let mut seen = vec![0.0; 3];
+        build_real(&spec, &chain, reality, seed).unwrap().observe(joints, &mut seen);
+        seen
+    }
+
+    const POSE: [f64; 3] = [0.4, 0.6, 0.8];
+
+    #[test]
+    fn a_late_observation_shows_the_arm_on_its_way_from_home() {
+        let (_, chain) = wax();
+        let spec = PlanSpec { dwell_s: 0.0, ..PlanSpec::default() };
+        let duration_s = plan(&chain, chain.home(), &[POSE.to_vec()], &spec).unwrap().duration_s();
+        let late = |latency_s, settle_s| RealitySpec { latency_s, settle_s, ..RealitySpec::default() };
+        let exact = observed(&RealitySpec::default(), 1, &POSE);
+        assert_eq!(observed(&late(0.2, 0.2), 1, &POSE), exact);
+        assert_eq!(observed(&late(1e3, 0.0), 1, &POSE), observed(&RealitySpec::default(), 1, chain.home()));
+        let halfway: Vec<f64> = POSE.iter().zip(chain.home()).map(|(q, h)| 0.5 * (q + h)).collect();
+        let (found, expected) =
+            (observed(&late(0.5 * duration_s + 0.1, 0.1), 1, &POSE), observed(&RealitySpec::default(), 1, &halfway));
+        assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} is not {expected:?}");
+    }
+
+    #[test]
+    fn a_late_observation_starts_where_the_prefix_ends_and_the_prefix_is_where_it_was_sent() {
+        let (spec, chain) = wax();
+        let reality = RealitySpec { latency_s: 1e3, ..RealitySpec::default() };
+        let mut world = build_real(&spec, &chain, &reality, 1).unwrap();
+        let (mut before, mut after) = (vec![0.0; 3], vec![0.0; 3]);
+        world.commit(&POSE, &mut before);
+        world.observe(&[0.0; 3], &mut after);
+        assert_eq!(after, observed(&RealitySpec::default(), 1, &POSE));
+        world.reset();
+        world.observe(&[0.0; 3], &mut after);
+        assert_eq!(after, observed(&RealitySpec::default(), 1, chain.home()));
+    }
+
+    #[test]
+    fn a_robot_of_its_own_is_the_same_in_every_run() {
+        let mut reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..RealitySpec::default() };
+        assert_ne!(observed(&reality, 1, &POSE), observed(&reality, 2, &POSE));
+        reality.seed = Some(9);
+        assert_eq!(observed(&reality, 1, &POSE), observed(&reality, 2, &POSE));
+        reality.sensor_noise = 1.0;
+        assert_ne!(observed(&reality, 1, &POSE), observed(&reality, 2, &POSE));
+    }
+
+    #[rstest]
+    #[case(RealitySpec { lost_share: 1.0, ..RealitySpec::default() }, "lost_share is 1.0")]
+    #[case(RealitySpec { latency_s: -0.1, ..RealitySpec::default() }, "latency_s is -0.1")]
+    #[case(RealitySpec { sensor_noise: f64::NAN, ..RealitySpec::default() }, "sensor_noise is NaN")]
+    fn refuses_numbers_out_of_range(#[case] reality: RealitySpec, #[case] told: &str) {
+        let (spec, chain) = wax();
+        let error = build_real(&spec, &chain, &reality, 1).err().unwrap().to_string();
+        assert!(error.contains(told), "{error}");
     }
 }

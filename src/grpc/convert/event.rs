@@ -20,6 +20,7 @@ fn data(data: EventData) -> Data {
         EventData::Progress { progress } => Data::Progress(progress.into()),
         EventData::Resync => Data::Resync(proto::JobResync {}),
         EventData::Goal { goal } => Data::Goal(goal.into()),
+        EventData::Trial { trial } => Data::Trial(trial.into()),
         EventData::Run { run, trajectory, repetition, seed, evaluations, discrepancy, painted_percent, digest } => {
             Data::Run(proto::RunFinished {
                 run: run.into(),

@@ -1,7 +1,9 @@
 //! Jobs and how far they are.
 
 use super::all;
-use crate::app::jobs::{CostEstimate, GoalProgress, JobFailure, JobKind, JobProgress, JobResult, JobView, Validation};
+use crate::app::jobs::{
+    CostEstimate, GoalProgress, JobFailure, JobKind, JobProgress, JobResult, JobView, TrialProgress, Validation,
+};
 use crate::app::{AppError, ErrorKind};
 use crate::framework::job::State;
 use crate::grpc::proto;
@@ -83,7 +85,15 @@ impl From<JobProgress> for proto::JobProgress {
             total_evaluations: progress.total_evaluations,
             discrepancy: progress.discrepancy,
             finished_goals: all(progress.finished_goals),
+            trials: all(progress.trials),
         }
+    }
+}
+
+impl From<TrialProgress> for proto::TrialProgress {
+    fn from(trial: TrialProgress) -> Self {
+        let TrialProgress { repetition, index, goal, residual } = trial;
+        Self { repetition, index, goal, residual }
     }
 }
 
@@ -97,6 +107,7 @@ impl From<GoalProgress> for proto::GoalProgress {
             stop_reason: super::run::stop_reason(goal.stop_reason),
             joints: goal.joints,
             observation: goal.observation,
+            residual: goal.residual,
         }
     }
 }

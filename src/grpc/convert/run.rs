@@ -1,7 +1,7 @@
 //! Runs.
 
 use super::all;
-use crate::app::runs::{RunGoal, RunGoals, RunView};
+use crate::app::runs::{RunGoal, RunGoals, RunTrials, RunView};
 use crate::framework::optimizer::StopReason;
 use crate::grpc::proto;
 
@@ -40,6 +40,17 @@ impl From<RunGoals> for proto::RunGoals {
     }
 }
 
+impl From<RunTrials> for proto::RunTrials {
+    fn from(view: RunTrials) -> Self {
+        let trials = view.trials.into_iter().map(|trial| proto::Trial {
+            joints: trial.joints,
+            observation: trial.observation.unwrap_or_default(),
+            goal: u32::try_from(trial.goal).unwrap_or(u32::MAX),
+        });
+        Self { run: view.run.into(), trials: trials.collect() }
+    }
+}
+
 /// The name it has in JSON.
 pub fn stop_reason(reason: StopReason) -> String {
     match reason {
@@ -63,6 +74,7 @@ impl From<RunGoal> for proto::RunGoal {
             joints: goal.joints,
             observation: goal.observation,
             goal: goal.goal,
+            residual: goal.residual,
         }
     }
 }

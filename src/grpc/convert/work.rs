@@ -2,7 +2,7 @@
 
 use super::{finite, finite_or_none, list, metric, reference, references, required, text};
 use crate::app::AppError;
-use crate::app::jobs::{CreateJob, ExecutionRequest, GeneralizationRequest};
+use crate::app::jobs::{CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
 use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::execution::ExecutionSpec;
 use crate::framework::generalization::Weighting;
@@ -43,13 +43,27 @@ fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
         seed: work.seed,
         repetitions: if work.repetitions == 0 { 1 } else { work.repetitions },
         max_evaluations_per_s: finite_or_none("/max_evaluations_per_s", work.max_evaluations_per_s)?,
+        earlier_runs: work.earlier_runs.map(earlier).transpose()?,
     })
+}
+
+fn earlier(earlier: proto::EarlierRuns) -> Result<Vec<EarlierRun>, AppError> {
+    let run = |(index, earlier): (usize, proto::EarlierRun)| {
+        let pointer = |field: &str| format!("/earlier_runs/{index}/{field}");
+        let job = text(earlier.job).map(|job| reference(&pointer("job"), &job)).transpose()?;
+        Ok(EarlierRun { run: reference(&pointer("run"), &earlier.run)?, job, trials: earlier.trials })
+    };
+    earlier.runs.into_iter().enumerate().map(run).collect()
 }
 
 fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
     let method = match required("/execution/method", spec.method)? {
         Method::Sst(sst) => MethodSpec::Sst(tournament(&sst)?),
         Method::MethodJson(json) => document("/execution/method_json", &json)?,
+        Method::MethodName(name) => MethodSpec::by_name(&name).ok_or_else(|| {
+            let detail = format!("{name:?} is no method: the methods are {}", MethodSpec::NAMES.join(", "));
+            AppError::field("/execution/method_name", "invalid_value", detail)
+        })?,
     };
     let constrained: Constrained = match spec.constraints_json.as_str() {
         "" => Constrained::default(),
@@ -155,7 +169,16 @@ impl From<ExecutionRequest> for proto::Execution {
             seed: work.seed,
             repetitions: work.repetitions,
             max_evaluations_per_s: work.max_evaluations_per_s,
+            earlier_runs: work
+                .earlier_runs
+                .map(|runs| proto::EarlierRuns { runs: runs.into_iter().map(Into::into).collect() }),
         }
+    }
+}
+
+impl From<EarlierRun> for proto::EarlierRun {
+    fn from(earlier: EarlierRun) -> Self {
+        Self { run: earlier.run.into(), job: earlier.job.map(String::from).unwrap_or_default(), trials: earlier.trials }
     }
 }
 
@@ -214,8 +237,9 @@ mod tests {
                 "handling": {"strategy": "penalty", "penalty": {"kind": "dynamic", "weight": 2.5}},
                 "on_infeasible": "append"}}),
             serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
-                "world": format!("wld_{id}"), "seed": 7, "execution": {"method": {"name": "model"},
-                "reality": {"link_share": 0.05, "base_shift_m": 0.02}}}),
+                "world": format!("wld_{id}"), "seed": 7, "execution": {"method": "model",
+                "reality": {"link_share": 0.05, "base_shift_m": 0.02}}, "earlier_runs": [{"run": format!("run_{id}"),
+                "job": format!("job_{id}"), "trials": 12}]}),
         ] {
             let before = request(json);
             assert_eq!(work(Some(before.clone().into())).unwrap(), before);

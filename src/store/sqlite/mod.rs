@@ -11,6 +11,7 @@ mod rows;
 mod statements;
 #[cfg(test)]
 mod tests;
+mod trials;
 mod writer;
 
 pub use open::OpenError;
@@ -21,8 +22,8 @@ use crate::app::experiments::{ExperimentView, RowFilter};
 use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::jobs::{EventPage, JobFilter, JobView, Work};
 use crate::app::ports::{
-    Advance, Claim, Claimed, IdempotencyKey, NewDemonstration, NewJob, NewRobot, Store, StoreError, Submitted,
-    Transition,
+    Advance, Claim, Claimed, IdempotencyKey, KeptTrials, NewDemonstration, NewJob, NewRobot, Store, StoreError,
+    Submitted, Transition,
 };
 use crate::app::robots::RobotView;
 use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
@@ -31,6 +32,7 @@ use crate::app::worlds::WorldView;
 use crate::app::{Keyset, Timestamp};
 use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::State;
+use crate::framework::whole_run::Trial;
 use async_trait::async_trait;
 use sqlx::sqlite::{SqlitePool, SqlitePoolOptions};
 use std::path::Path;
@@ -220,6 +222,12 @@ impl Store for SqliteStore {
     }
     async fn run_convergence(&self, id: &RunId) -> Result<Vec<ConvergencePoint>, StoreError> {
         results::run_convergence(self, id.as_str()).await
+    }
+    async fn run_trials(&self, id: &RunId) -> Result<KeptTrials, StoreError> {
+        trials::of_run(self, id.as_str()).await
+    }
+    async fn runs_on(&self, setting: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError> {
+        trials::of_setting(self, setting, limit).await
     }
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError> {
         results::runs(self, filter, keyset).await

@@ -144,7 +144,7 @@ mod tests {
         .unwrap();
         connection.close().await.unwrap();
         let before = std::fs::read(&path).unwrap();
-        assert!(matches!(open(&path).await, Err(OpenError::NewerSchema { found: 9999, known: 2 })));
+        assert!(matches!(open(&path).await, Err(OpenError::NewerSchema { found: 9999, known: 3 })));
         assert_eq!(std::fs::read(&path).unwrap(), before);
     }
 }

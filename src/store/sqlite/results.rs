@@ -108,6 +108,7 @@ pub(super) async fn insert_run(connection: &mut SqliteConnection, new: &NewRun) 
         .execute(&mut *connection)
         .await
         .map_err(engine_error)?;
+    super::trials::insert(connection, new).await?;
     if let Some(trajectory) = &new.trajectory {
         sqlx::query(INSERT_TRAJECTORY)
             .bind(trajectory.id.as_str())

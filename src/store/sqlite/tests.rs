@@ -41,6 +41,7 @@ async fn every_statement_prepares_on_a_fresh_database() {
         jobs::STATEMENTS,
         results::STATEMENTS,
         robots::STATEMENTS,
+        trials::STATEMENTS,
     ];
     let mut prepared = 0;
     for statement in modules.into_iter().flatten() {

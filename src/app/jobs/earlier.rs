@@ -1,0 +1,170 @@
+//! Trials of earlier runs on the same robot: found when a job is submitted and kept in it, so that it needs nothing
+//! else and goes on with the same bits.
+//!
+//! Runs share their trials when the same pose shows the same: one robot (by name, content of its URDF, chain and tool),
+//! one world without memory, one list of features, and one reality. A simulated reality that draws its robot is the
+//! same one only with the same seed, which each repetition has for itself unless `reality.seed` is given.
+
+use super::resolve::missing;
+use super::{EarlierRun, ExecutionRequest};
+use crate::app::robots::RobotView;
+use crate::app::runs::RunView;
+use crate::app::{App, AppError, FieldError};
+use crate::framework::execution::Problem;
+use crate::framework::optimizer::MethodSpec;
+use crate::framework::whole_run::Trial;
+use crate::framework::world::WorldSpec;
+use serde_json::json;
+use sha2::{Digest as _, Sha256};
+
+/// Most earlier trials a method begins with: beyond, asking takes long and tells little.
+const MAX_TRIALS: usize = 60;
+/// Most runs that are looked through for them.
+const MAX_RUNS: u32 = 20;
+
+/// What decides what a pose shows, as a digest; none where that is not the same in two runs.
+pub(super) fn setting(robot: &RobotView, problem: &Problem, seed: u64, repetitions: u32) -> Option<String> {
+    if !matches!(problem.world, WorldSpec::ToolPosition(_)) {
+        return None;
+    }
+    let mut reality = problem.execution.reality.clone();
+    if let Some(reality) = &mut reality {
+        if !reality.is_distorted() {
+            reality.seed = None;
+        } else if reality.seed.is_none() {
+            if repetitions > 1 {
+                return None;
+            }
+            reality.seed = Some(seed);
+        }
+    }
+    let chain = &robot.chain;
+    let joints: Vec<&str> = chain.free_joints.iter().map(|joint| joint.name.as_str()).collect();
+    let all = json!({
+        "robot": [&robot.name, &robot.urdf_sha256, &chain.base_link, &chain.tip_link],
+        "joints": joints,
+        "fixed": chain.fixed_joints,
+        "tool_offset_m": problem.robot.tool_offset_m,
+        "world": problem.world,
+        "reality": reality,
+        "features": problem.goals.features(),
+    });
+    Some(hex::encode(Sha256::digest(all.to_string())))
+}
+
+impl App {
+    /// The trials the job begins with; what was left open in the request is filled in.
+    pub(super) async fn earlier_trials(
+        &self,
+        request: &mut ExecutionRequest,
+        setting: Option<&str>,
+    ) -> Result<Vec<Trial>, AppError> {
+        let begins_with_trials = matches!(request.execution.method, MethodSpec::Model(_));
+        let found = match (&request.earlier_runs, setting) {
+            (None, Some(setting)) if begins_with_trials => self.ports.store.runs_on(setting, MAX_RUNS).await?,
+            (None, _) => return Ok(Vec::new()),
+            (Some(named), _) if named.is_empty() => return Ok(Vec::new()),
+            (Some(_), _) if !begins_with_trials => {
+                let detail = "only the method model begins with earlier trials: leave them out";
+                return Err(AppError::field("/earlier_runs", "not_used", detail));
+            }
+            (Some(named), setting) => self.named_trials(named, setting).await?,
+        };
+        let mut left = MAX_TRIALS;
+        let mut trials = Vec::new();
+        let mut told = Vec::new();
+        for (run, of_run) in found {
+            let seen: Vec<Trial> = of_run.into_iter().filter(|trial| trial.observation.is_some()).collect();
+            let latest = seen.len().saturating_sub(left);
+            if seen.len() == latest {
+                continue;
+            }
+            let count = u32::try_from(seen.len() - latest).unwrap_or(u32::MAX);
+            told.push(EarlierRun { run: run.id, job: Some(run.job), trials: Some(count) });
+            left -= seen.len() - latest;
+            trials.splice(0..0, seen.into_iter().skip(latest));
+        }
+        request.earlier_runs = Some(told);
+        Ok(trials)
+    }
+
+    async fn named_trials(
+        &self,
+        named: &[EarlierRun],
+        setting: Option<&str>,
+    ) -> Result<Vec<(RunView, Vec<Trial>)>, AppError> {
+        let mut found = Vec::with_capacity(named.len());
+        let mut errors = Vec::new();
+        for (index, earlier) in named.iter().enumerate().take(MAX_RUNS as usize) {
+            let pointer = format!("/earlier_runs/{index}/run");
+            let run = match self.ports.store.run(&earlier.run).await {
+                Ok(run) => run,
+                Err(error) => {
+                    errors.push(missing(pointer, error)?);
+                    continue;
+                }
+            };
+            let kept = self.ports.store.run_trials(&earlier.run).await?;
+            if kept.setting.is_some() && kept.setting.as_deref() == setting {
+                found.push((run, kept.trials));
+                continue;
+            }
+
+            let detail = format!(
+                "{} has no trials of this robot, tool, world and features: name another run, or give [] to begin with \
+                 none",
+                earlier.run
+            );
+            errors.push(FieldError::new(pointer, "other_robot", detail));
+        }
+        if errors.is_empty() { Ok(found) } else { Err(AppError::invalid(errors)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::Timestamp;
+    use crate::app::id::RobotId;
+    use crate::framework::preset::shipped;
+    use crate::framework::robot::{Chain, RobotModel, summarize, summarize_chain};
+    use crate::framework::world::RealitySpec;
+
+    fn robot(problem: &Problem) -> RobotView {
+        let model = RobotModel::from_urdf(&problem.urdf).unwrap();
+        let chain = Chain::new(&model, &problem.robot).unwrap();
+        RobotView {
+            id: RobotId::from_uuid(uuid::Uuid::from_u128(1)),
+            name: "arm".to_owned(),
+            version: 1,
+            spec: problem.robot.clone(),
+            summary: summarize(&model),
+            chain: summarize_chain(&chain),
+            urdf_sha256: "0".to_owned(),
+            created_at: Timestamp(0),
+        }
+    }
+
+    #[test]
+    fn a_setting_is_all_that_decides_what_a_pose_shows_and_nothing_else() {
+        let problem = shipped("wax").unwrap().problem;
+        let of = |problem: &Problem, seed, repetitions| setting(&robot(problem), problem, seed, repetitions);
+        let same = of(&problem, 1, 1);
+        assert!(same.is_some());
+        let mut other = problem.clone();
+        other.execution.tolerance = Some(3.0);
+        other.robot.acceleration.clear();
+        assert_eq!(of(&other, 2, 5), same);
+        let mut tool = problem.clone();
+        tool.robot.tool_offset_m[2] += 0.01;
+        assert_ne!(of(&tool, 1, 1), same);
+        let mut drawn = problem.clone();
+        drawn.execution.reality = Some(RealitySpec { link_share: 0.05, ..RealitySpec::default() });
+        assert!(of(&drawn, 1, 1).is_some() && of(&drawn, 1, 1) != of(&drawn, 2, 1));
+        assert_eq!(of(&drawn, 1, 2), None, "each repetition meets a robot of its own");
+        let mut own = drawn.clone();
+        own.execution.reality.as_mut().unwrap().seed = Some(1);
+        assert_eq!(of(&own, 7, 3), of(&drawn, 1, 1));
+        assert_eq!(of(&shipped("paint").unwrap().problem, 1, 1), None, "what a pose paints changes with time");
+    }
+}
