@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { Link } from "react-router";
 import { useAction, useRobot, useWorld } from "../../api/queries";
-import type { CreateJob, Job, MethodSpec } from "../../api/types";
+import type { CreateJob, EarlierRun, Job, MethodChoice } from "../../api/types";
 import { formatDateTime, formatNumber, humanize } from "../../lib/format";
 import { Card, Facts, type Fact } from "../../ui/basics";
 
@@ -45,7 +45,7 @@ function requestFacts(request: CreateJob): Fact[] {
       { name: "Repetitions of each cell", value: request.repetitions ?? 1 },
     ];
   }
-  const { execution, seed, repetitions = 1 } = request;
+  const { execution, seed, repetitions = 1, earlier_runs: earlier } = request;
   const given: [string, ReactNode][] = [
     ["Action", <ActionLink key="action" id={request.action} />],
     ["Robot", <RobotLink key="robot" id={request.robot} />],
@@ -58,13 +58,29 @@ function requestFacts(request: CreateJob): Fact[] {
     ["Evaluations a second at most", request.max_evaluations_per_s],
     ["First seed", seed == null ? null : String(seed)],
     ["Repetitions", repetitions],
+    ["Begins with", earlier == null ? null : <EarlierTrials key="earlier" runs={earlier} />],
   ];
   return given.flatMap(([name, value]) => (value == null ? [] : [{ name, value }]));
 }
 
-function methodName(method: MethodSpec): string {
+function methodName(method: MethodChoice): string {
+  if (typeof method === "string") return humanize(method);
   const name = method.name.replace("_", "-").toUpperCase();
   return method.name === "sst" ? `${name}, P ${method.population ?? 50}, S ${method.stagnation ?? 3}` : name;
+}
+
+/** The trials of earlier runs on the same robot, and the jobs they are of. */
+function EarlierTrials({ runs }: { runs: EarlierRun[] }) {
+  if (runs.length === 0) return <>no earlier trials</>;
+  return (
+    <ul className="plain">
+      {runs.map(({ run, job, trials }) => (
+        <li key={run}>
+          {trials ?? "all"} trials of {job == null ? "an earlier run" : <Link to={`/jobs/${job}`}>an earlier job</Link>}
+        </li>
+      ))}
+    </ul>
+  );
 }
 
 function ActionLink({ id }: { id: string }) {
