@@ -4,6 +4,7 @@
 //! by a start-up gate.
 
 mod demonstrations;
+mod experiment;
 mod generalize;
 mod healthcheck;
 mod openapi;
@@ -32,6 +33,7 @@ enum Command {
     Serve(Box<serve::ServeArguments>),
     Healthcheck(healthcheck::HealthcheckArguments),
     Reproduce(reproduce::ReproduceArguments),
+    Experiment(experiment::ExperimentArguments),
     /// Print the OpenAPI 3.1 document of the REST interface.
     Openapi,
 }
@@ -46,6 +48,7 @@ pub fn main(arguments: &Arguments) -> ExitCode {
         Command::Serve(arguments) => serve::run(arguments),
         Command::Healthcheck(arguments) => healthcheck::run(arguments),
         Command::Reproduce(arguments) => reproduce::run_command(arguments),
+        Command::Experiment(arguments) => experiment::run_command(arguments),
         Command::Openapi => openapi::run(),
     };
     match result {

@@ -1,11 +1,10 @@
 //! `cgda reproduce`: the paper's tables and figures, rerun.
 
+use super::experiment::finish;
 use crate::framework::experiment::paper::{PaperCell, PaperTables};
-use crate::framework::experiment::{Experiment, RunId, RunRow, export, paper_figures, run};
+use crate::framework::experiment::{Experiment, export, paper_figures};
 use crate::framework::preset;
 use anyhow::Context as _;
-use indicatif::{ParallelProgressIterator as _, ProgressBar, ProgressStyle};
-use rayon::prelude::{IntoParallelRefIterator as _, ParallelIterator as _};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -48,22 +47,6 @@ pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
     let table = experiment.table();
     let text = if arguments.csv { export::paper_csv(&table) } else { export::paper_markdown(&tables.cells, &table) };
     std::io::stdout().lock().write_all(text.as_bytes())?;
-    Ok(())
-}
-
-/// Runs what is pending on `threads` threads (all cores when absent).
-fn finish(experiment: &mut Experiment, threads: Option<u32>) -> anyhow::Result<()> {
-    let pending: Vec<RunId> = experiment.pending().collect();
-    let bar = ProgressBar::new(pending.len() as u64);
-    bar.set_style(ProgressStyle::with_template("{wide_bar} {pos}/{len} runs, {eta} left")?);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize).build()?;
-    let plan = experiment.plan();
-    let rows = pool.install(|| {
-        let rows = pending.par_iter().progress_with(bar.clone()).map(|id| run(plan, *id));
-        rows.collect::<Result<Vec<RunRow>, _>>()
-    })?;
-    bar.finish_and_clear();
-    rows.into_iter().try_for_each(|row| experiment.record(row))?;
     Ok(())
 }
 

@@ -117,7 +117,7 @@ fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64
 /// [`PaperFigureError`] if a run cannot be repeated or a figure not be drawn.
 pub fn figures(experiment: &Experiment, cells: &[PaperCell]) -> Result<Vec<(u8, String)>, PaperFigureError> {
     let curves = |table: u8| panel(experiment, cells, table);
-    let what = "evaluations per goal, mean \u{b1} sd";
+    let what = "evaluations until each goal is done";
     let wax = wax_demonstrations()?;
     let mut drawn = vec![(2, figure_2(&wax, &GeneralizeSpec::new(WAX_T_MIN_S))?)];
     drawn.push((4, accumulation(&format!("Figure 4. Wax: {what}"), &[curves(1)])?));
@@ -145,7 +145,7 @@ fn panel(experiment: &Experiment, cells: &[PaperCell], table: u8) -> Accumulatio
     let curve = |(index, cell): (u32, &PaperCell)| Accumulation {
         name: cell.setting.clone(),
         cumulative: results[index as usize].cumulative.clone(),
-        published: Some(cell.published.evaluations),
+        raw: Some(cell.raw.evaluations),
     };
     AccumulationPanel { title: title.to_owned(), curves: of_table(cells, table).map(curve).collect() }
 }

@@ -1,10 +1,10 @@
-//! Figures 4, 6, 8, 9, 10: evaluations until each goal is done, mean over the runs with a band of one sd.
+//! Figures 4, 6, 8, 9, 10: mean evaluations until each goal is done; beside the last goal the spread of the runs and
+//! the raw logs' mean.
 
 use super::FigureError;
-use super::canvas::{Area, Axis, Drawn, LEGEND, Sample, legend, line, marker, page, panel, pixel};
-use super::style::{HEIGHT, WIDTH, band_colour};
+use super::canvas::{Area, Axis, Drawn, HEADER, LEGEND, Sample, Scale, legend, marker, page, panel, pixel, plain_line};
+use super::style::{WIDTH, colour};
 use crate::framework::experiment::Summary;
-use plotters::element::Polygon;
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,8 +13,8 @@ pub struct Accumulation {
     pub name: String,
     /// Cumulative evaluations after goal 1..n.
     pub cumulative: Vec<Summary>,
-    /// The published mean after the last goal.
-    pub published: Option<f64>,
+    /// The raw logs' mean after the last goal.
+    pub raw: Option<f64>,
 }
 
 /// Curves that share axes.
@@ -26,46 +26,68 @@ pub struct AccumulationPanel {
     pub curves: Vec<Accumulation>,
 }
 
-/// The figure as SVG, panels side by side.
+/// Height of one panel, px.
+const PANEL_PX: u32 = 860;
+/// Of the goals' axis, how much wider it is for the spreads beside the last goal.
+const BESIDE: f64 = 0.3;
+
+/// The figure as SVG, panels one below the other.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.
 pub fn accumulation(title: &str, panels: &[AccumulationPanel]) -> Result<String, FigureError> {
-    page(title, (WIDTH, HEIGHT), |area| {
-        let areas = area.split_evenly((1, panels.len().max(1)));
+    let count = u32::try_from(panels.len().max(1)).unwrap_or(1);
+    page(title, (WIDTH, HEADER + count * PANEL_PX), |area| {
+        let areas = area.split_evenly((panels.len().max(1), 1));
         panels.iter().zip(&areas).try_for_each(|(panel, area)| draw(area, panel))
     })
 }
 
 fn draw<'b>(area: &Area<'b>, content: &AccumulationPanel) -> Drawn<'b> {
-    let goals = content.curves.iter().map(|curve| curve.cumulative.len()).max().unwrap_or(1);
-    let top = content.curves.iter().flat_map(|curve| {
-        let bands = curve.cumulative.iter().map(|s| s.mean + s.sd.unwrap_or(0.0));
-        bands.chain(curve.published)
-    });
-    let top = top.fold(1.0, f64::max) * 1.04;
-    let x = Axis { label: "goal".to_owned(), range: [0.6, goals as f64 + 0.4], ticks: goals.min(17) + 1, decimals: 0 };
-    let y = Axis { label: "evaluations so far (count)".to_owned(), range: [0.0, top], ticks: 8, decimals: 0 };
+    let curves = &content.curves;
+    let goals = curves.iter().map(|curve| curve.cumulative.len()).max().unwrap_or(1);
+    let last = |curve: &Accumulation| curve.cumulative.last().map(|s| (s.mean, s.sd.unwrap_or(0.0)));
+    let tops = curves.iter().flat_map(|curve| [last(curve).map(|(mean, sd)| mean + sd), curve.raw]);
+    let top = tops.flatten().fold(1.0, f64::max) * 1.04;
+    let beside = BESIDE * goals as f64;
+    let x = Axis {
+        label: "goal".to_owned(),
+        range: [0.6, goals as f64 + beside],
+        ticks: goals + 8,
+        decimals: 0,
+        scale: Scale::UpTo(goals as f64),
+    };
+    let y = Axis {
+        label: "evaluations so far (count)".to_owned(),
+        range: [0.0, top],
+        ticks: 8,
+        decimals: 0,
+        scale: Scale::Linear,
+    };
     let chart = panel(area, &content.title, &x, &y)?;
-    for (index, curve) in content.curves.iter().enumerate() {
-        let edge = |sign: f64| {
-            let point = move |(goal, s): (usize, &Summary)| ((goal + 1) as f64, s.mean + sign * s.sd.unwrap_or(0.0));
-            curve.cumulative.iter().enumerate().map(point).collect::<Vec<_>>()
-        };
-        let band: Vec<_> = edge(1.0).into_iter().chain(edge(-1.0).into_iter().rev()).collect();
-        chart.plotting_area().draw(&Polygon::new(band, band_colour(index)))?;
-    }
     let mut entries = Vec::new();
-    for (index, curve) in content.curves.iter().enumerate() {
-        let mean: Vec<_> = curve.cumulative.iter().enumerate().map(|(goal, s)| ((goal + 1) as f64, s.mean)).collect();
-        line(area, &chart, index, &mean)?;
-        if let Some(published) = curve.published {
-            marker(area, index, pixel(area, &chart, (goals as f64, published)), 15, true)?;
-        }
+    for (index, curve) in curves.iter().enumerate() {
+        // the first are drawn below and larger, so that curves that coincide can be told apart
+        let size = 10 + 2 * i32::try_from(curves.len() - 1 - index).unwrap_or(0);
+        let points: Vec<_> = curve.cumulative.iter().enumerate().map(|(g, s)| ((g + 1) as f64, s.mean)).collect();
+        plain_line(&chart, &points, colour(index), size.unsigned_abs() / 2)?;
+        points.iter().try_for_each(|point| marker(area, index, pixel(area, &chart, *point), size, false))?;
         entries.push((Sample::Series(index), curve.name.clone()));
     }
-    if content.curves.iter().any(|curve| curve.published.is_some()) {
-        entries.push((Sample::Hollow(6), "published (hollow)".to_owned()));
+    for (index, curve) in curves.iter().enumerate() {
+        let column = goals as f64 + beside * (index as f64 + 1.0) / (curves.len() as f64 + 0.7);
+        if let Some((mean, sd)) = last(curve) {
+            plain_line(&chart, &[(column, mean - sd), (column, mean + sd)], colour(index), 5)?;
+            marker(area, index, pixel(area, &chart, (column, mean)), 12, false)?;
+        }
+        if let Some(raw) = curve.raw {
+            let shifted = column + 0.3 * beside / (curves.len() as f64 + 0.7);
+            marker(area, index, pixel(area, &chart, (shifted, raw)), 13, true)?;
+        }
+    }
+    entries.push((Sample::Spread, "after the last goal: mean \u{b1} sd".to_owned()));
+    if curves.iter().any(|curve| curve.raw.is_some()) {
+        entries.push((Sample::Hollow(6), "mean of the authors' raw logs".to_owned()));
     }
     legend(area, LEGEND, &entries)
 }

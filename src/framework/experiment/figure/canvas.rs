@@ -22,6 +22,28 @@ pub(super) struct Axis {
     pub range: [f64; 2],
     pub ticks: usize,
     pub decimals: usize,
+    pub scale: Scale,
+}
+
+/// How values lie on an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Scale {
+    Linear,
+    /// Linear; ticks beyond this value have no label.
+    UpTo(f64),
+    /// The chart holds decimal logarithms; whole decades are labelled.
+    Log10,
+}
+
+impl Axis {
+    fn tick(&self, value: f64) -> String {
+        match self.scale {
+            Scale::Linear => number(value, self.decimals),
+            Scale::UpTo(last) if value <= last => number(value, self.decimals),
+            Scale::Log10 if (value - value.round()).abs() < 1e-9 => number(10_f64.powf(value.round()), self.decimals),
+            Scale::UpTo(_) | Scale::Log10 => String::new(),
+        }
+    }
 }
 
 /// An SVG of `size` px with `title` for readers and screen readers; `draw` fills the page below the title.
@@ -84,8 +106,8 @@ pub(super) fn panel<'a, 'b>(area: &'a Area<'b>, title: &str, x: &Axis, y: &Axis)
         .axis_desc_style(text(34))
         .x_desc(&x.label)
         .y_desc(&y.label)
-        .x_label_formatter(&|value| number(*value, x.decimals))
-        .y_label_formatter(&|value| number(*value, y.decimals))
+        .x_label_formatter(&|value| x.tick(*value))
+        .y_label_formatter(&|value| y.tick(*value))
         .draw()?;
     let style = heading(34).pos(Pos::new(HPos::Left, VPos::Top));
     area.draw(&Text::new(title.to_owned(), (pixels(LEFT), 14), style))?;
@@ -159,12 +181,15 @@ pub(super) fn square<'b>(area: &Area<'b>, (x, y): (i32, i32), half: i32, ink: RG
     area.draw(&Rectangle::new([(x - half, y - half), (x + half, y + half)], ink.filled()))
 }
 
-/// A number in a ring.
-pub(super) fn numbered<'b>(area: &Area<'b>, at: (i32, i32), number: usize) -> Drawn<'b> {
-    area.draw(&Circle::new(at, 17, WHITE.mix(0.85).filled()))?;
-    area.draw(&Circle::new(at, 17, INK.stroke_width(3)))?;
-    let style = heading(24).pos(Pos::new(HPos::Center, VPos::Center));
-    area.draw(&Text::new(number.to_string(), at, style))
+/// A ring with a white inside.
+pub(super) fn ring<'b>(area: &Area<'b>, at: (i32, i32), radius: i32, ink: RGBColor) -> Drawn<'b> {
+    area.draw(&Circle::new(at, radius, WHITE.mix(0.85).filled()))?;
+    area.draw(&Circle::new(at, radius, ink.stroke_width(4)))
+}
+
+/// A short text around a point.
+pub(super) fn label<'b>(area: &Area<'b>, at: (i32, i32), words: &str) -> Drawn<'b> {
+    area.draw(&Text::new(words.to_owned(), at, heading(26).pos(Pos::new(HPos::Center, VPos::Center))))
 }
 
 /// Where a point of the chart lies on `area`, px.
@@ -187,8 +212,10 @@ pub(super) enum Sample {
     Marker(usize),
     /// A plain line with squares.
     Square(RGBColor),
-    /// A ringed number.
+    /// A ring with its number.
     Numbered,
+    /// A mean with its spread.
+    Spread,
 }
 
 /// Entries one below the other, the first at `at` (px on `area`).
@@ -234,7 +261,14 @@ fn entry<'b>(area: &Area<'b>, (x, y): (i32, i32), sample: Sample, name: &str) ->
             area.draw(&stroke(ink))?;
             square(area, (x + 30, y), 9, ink)?;
         }
-        Sample::Numbered => numbered(area, (x + 30, y), 1)?,
+        Sample::Numbered => {
+            ring(area, (x + 44, y), 9, INK)?;
+            label(area, (x + 18, y), "1")?;
+        }
+        Sample::Spread => {
+            area.draw(&PathElement::new(vec![(x + 30, y - 20), (x + 30, y + 20)], INK.stroke_width(5)))?;
+            area.draw(&Circle::new((x + 30, y), 10, INK.filled()))?;
+        }
     }
     let style = text(32).pos(Pos::new(HPos::Left, VPos::Center));
     area.draw(&Text::new(name.to_owned(), (x + 78, y), style))
@@ -265,6 +299,15 @@ mod tests {
     #[case(999.0, 0, "999")]
     fn numbers_are_legible(#[case] value: f64, #[case] decimals: usize, #[case] shown: &str) {
         assert_eq!(number(value, decimals), shown);
+    }
+
+    #[test]
+    fn a_logarithmic_axis_labels_its_decades() {
+        let range = [0.0, 4.0];
+        let axis = Axis { label: String::new(), range, ticks: 5, decimals: 0, scale: Scale::Log10 };
+        assert_eq!([0.0, 0.5, 3.0].map(|v| axis.tick(v)), ["1", "", "1\u{202f}000"]);
+        let axis = Axis { scale: Scale::UpTo(2.0), ..axis };
+        assert_eq!([2.0, 3.0].map(|v| axis.tick(v)), ["2", ""]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::FigureError;
 use super::canvas::{
-    Area, Axis, Drawn, HEADER, LEGEND, Sample, legend, line, page, panel, pixel, pixels, plain_line, square,
+    Area, Axis, Drawn, HEADER, LEGEND, Sample, Scale, legend, line, page, panel, pixel, pixels, plain_line, square,
 };
 use super::style::{GREY, INK, WIDTH, colour, heading, text};
 use plotters::element::{Rectangle, Text};
@@ -90,8 +90,14 @@ fn wall<'b>(area: &Area<'b>, content: &Coverage, goal: usize) -> Drawn<'b> {
 
 fn against_reference<'b>(area: &Area<'b>, content: &Coverage) -> Drawn<'b> {
     let goals = content.reference.len();
-    let x = Axis { label: "goal".to_owned(), range: [0.6, goals as f64 + 0.4], ticks: goals.min(17) + 1, decimals: 0 };
-    let y = Axis { label: "painted (%)".to_owned(), range: [0.0, 104.0], ticks: 6, decimals: 0 };
+    let x = Axis {
+        label: "goal".to_owned(),
+        range: [0.6, goals as f64 + 0.4],
+        ticks: goals.min(17) + 1,
+        decimals: 0,
+        scale: Scale::Linear,
+    };
+    let y = Axis { label: "painted (%)".to_owned(), range: [0.0, 104.0], ticks: 6, decimals: 0, scale: Scale::Linear };
     let chart = panel(area, "", &x, &y)?;
     let points = |values: &[f64]| values.iter().enumerate().map(|(g, v)| ((g + 1) as f64, *v)).collect::<Vec<_>>();
     let reference = points(&content.reference);

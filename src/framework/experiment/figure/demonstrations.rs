@@ -2,7 +2,9 @@
 
 use super::FigureError;
 use super::canvas::range_of;
-use super::canvas::{Area, Axis, Drawn, HEADER, STRIP, Sample, legend_row, marker, page, panel, pixel, plain_line};
+use super::canvas::{
+    Area, Axis, Drawn, HEADER, STRIP, Sample, Scale, legend_row, marker, page, panel, pixel, plain_line,
+};
 use super::style::{GREY, WIDTH, colour};
 use crate::framework::Feature;
 
@@ -51,9 +53,10 @@ fn draw<'b>(area: &Area<'b>, content: &Generalization) -> Drawn<'b> {
         range: range_of(all().map(|point| point.0)),
         ticks: 10,
         decimals: 0,
+        scale: Scale::Linear,
     };
     let label = format!("{} ({unit})", content.feature.name);
-    let y = Axis { label, range: range_of(all().map(|point| point.1)), ticks: 5, decimals: 0 };
+    let y = Axis { label, range: range_of(all().map(|point| point.1)), ticks: 5, decimals: 0, scale: Scale::Linear };
     let chart = panel(area, "", &x, &y)?;
     for demonstration in &content.demonstrations {
         plain_line(&chart, demonstration, GREY, 3)?;

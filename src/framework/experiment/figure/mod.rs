@@ -11,11 +11,13 @@ mod demonstrations;
 mod style;
 #[cfg(test)]
 mod tests;
+mod trade_off;
 mod trail;
 
 pub use accumulation::{Accumulation, AccumulationPanel, accumulation};
 pub use coverage::{Coverage, coverage};
 pub use demonstrations::{Generalization, demonstrations};
+pub use trade_off::{Method, trade_off};
 pub use trail::{Trail, trails};
 
 /// Why a figure could not be drawn.

@@ -3,12 +3,11 @@
 //!
 //! Palette: M. Okabe, K. Ito, "Color Universal Design", 2008 (yellow left out: too pale on white).
 
-use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBAColor, RGBColor, TextStyle};
+use plotters::style::{FontDesc, FontFamily, FontStyle, RGBColor, TextStyle};
 
-/// Width of every figure and height of one panel, px: twice the size they are meant to be seen at, because the drawing
-/// library rounds coordinates to whole pixels.
+/// Width of every figure, px: twice the size they are meant to be seen at, because the drawing library rounds
+/// coordinates to whole pixels.
 pub(super) const WIDTH: u32 = 1600;
-pub(super) const HEIGHT: u32 = 1000;
 
 const PALETTE: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
@@ -30,11 +29,6 @@ pub(super) const GRID: RGBColor = RGBColor(226, 226, 226);
 /// Colour of series `index`.
 pub(super) fn colour(index: usize) -> RGBColor {
     PALETTE[index % PALETTE.len()]
-}
-
-/// Colour of the band around series `index`.
-pub(super) fn band_colour(index: usize) -> RGBAColor {
-    colour(index).mix(0.13)
 }
 
 /// Text of `size` px.

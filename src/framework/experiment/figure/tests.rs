@@ -6,7 +6,7 @@ use crate::framework::experiment::Summary;
 
 fn curve(name: &str, slope: f64) -> Accumulation {
     let after = |goal: i32| Summary::of(&[slope * f64::from(goal) * 0.8, slope * f64::from(goal) * 1.2]).unwrap();
-    Accumulation { name: name.to_owned(), cumulative: (1..=9).map(after).collect(), published: Some(slope * 9.3) }
+    Accumulation { name: name.to_owned(), cumulative: (1..=9).map(after).collect(), raw: Some(slope * 9.3) }
 }
 
 fn all() -> Vec<(u8, String, &'static [&'static str])> {
@@ -32,7 +32,18 @@ fn all() -> Vec<(u8, String, &'static [&'static str])> {
         reference: (0..17).map(|goal| f64::from(goal) * 6.25).collect(),
         achieved: (0..17).map(|goal| f64::from(goal) * 6.25).collect(),
     };
+    let method = |name: &str, evaluations: f64, discrepancy: f64| Method {
+        name: name.to_owned(),
+        evaluations: Summary::of(&[evaluations, evaluations * 1.1]).unwrap(),
+        discrepancy: Summary::of(&[discrepancy, discrepancy * 1.3]).unwrap(),
+    };
+    let methods = [method("SST", 9000.0, 240.0), method("model", 14.0, 200.0), method("PSO", 8900.0, 230.0)];
     vec![
+        (
+            1,
+            trade_off("Figure 1", "mm", &methods).unwrap(),
+            &["evaluations (count, logarithmic)", "model", "1\u{202f}000"],
+        ),
         (
             2,
             demonstrations("Figure 2", &[generalization]).unwrap(),

@@ -1,10 +1,10 @@
-//! Figure 5: where the tool went, goal by goal, beside where it should have been; from above and from the side, both
-//! axes of a panel to one scale.
+//! Figure 5: where the tool went, goal by goal, beside where it should have been; a row a run, from above and from the
+//! side, both axes of a panel to one scale.
 
 use super::FigureError;
-use super::canvas::{Area, Axis, BOTTOM, Drawn, LEFT, LEGEND, RIGHT, Sample, TOP, legend, line, numbered, page, panel};
-use super::canvas::{pixel, plain_line, range_of};
-use super::style::{HEIGHT, INK, WIDTH};
+use super::canvas::{Area, Axis, BOTTOM, Drawn, HEADER, LEFT, RIGHT, STRIP, Sample, Scale, TOP};
+use super::canvas::{Chart, label, legend_row, line, page, panel, pixel, plain_line, range_of, ring};
+use super::style::{GREY, INK, WIDTH};
 
 /// One run.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,23 +15,44 @@ pub struct Trail {
     pub positions_mm: Vec<[f64; 3]>,
 }
 
+/// Height of one run's panels, px.
+const ROW_PX: u32 = 660;
+/// Goals nearer than this share a label, px.
+const TOGETHER_PX: i32 = 40;
+
 /// The figure as SVG; `goals_mm` are the goals' x y z in mm.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.
 pub fn trails(title: &str, goals_mm: &[[f64; 3]], trails: &[Trail]) -> Result<String, FigureError> {
-    page(title, (WIDTH, HEIGHT), |area| {
-        let areas = area.split_evenly((1, 2));
-        view(&areas[0], "seen from above", [1, 0], goals_mm, trails)?;
-        view(&areas[1], "seen from the robot's right", [0, 2], goals_mm, trails)?;
-        let mut entries = vec![(Sample::Numbered, "goals 1 to n".to_owned())];
-        entries.extend(trails.iter().enumerate().map(|(index, trail)| (Sample::Series(index), trail.name.clone())));
-        legend(&areas[1], LEGEND, &entries)
+    let count = u32::try_from(trails.len().max(1)).unwrap_or(1);
+    page(title, (WIDTH, HEADER + STRIP + count * ROW_PX), |area| {
+        let (strip, rows) = area.split_vertically(STRIP);
+        let entries = [
+            (Sample::Numbered, "goals".to_owned()),
+            (Sample::Series(0), "tool".to_owned()),
+            (Sample::Line(GREY), "how far the tool stayed from its goal".to_owned()),
+        ];
+        legend_row(&strip, &entries)?;
+        let rows = rows.split_evenly((trails.len().max(1), 1));
+        for (index, (trail, row)) in trails.iter().zip(&rows).enumerate() {
+            let views = row.split_evenly((1, 2));
+            view(&views[0], &format!("{}, from above", trail.name), [1, 0], goals_mm, trails, index)?;
+            view(&views[1], "from the robot's right", [0, 2], goals_mm, trails, index)?;
+        }
+        Ok(())
     })
 }
 
-/// Projection on coordinates `[horizontal, vertical]` (0 x, 1 y, 2 z).
-fn view<'b>(area: &Area<'b>, title: &str, [h, v]: [usize; 2], goals: &[[f64; 3]], trails: &[Trail]) -> Drawn<'b> {
+/// Projection of trail `index` on coordinates `[horizontal, vertical]` (0 x, 1 y, 2 z); the axes hold all trails.
+fn view<'b>(
+    area: &Area<'b>,
+    title: &str,
+    [h, v]: [usize; 2],
+    goals: &[[f64; 3]],
+    trails: &[Trail],
+    index: usize,
+) -> Drawn<'b> {
     let all = || goals.iter().chain(trails.iter().flat_map(|trail| &trail.positions_mm));
     let (width, height) = area.dim_in_pixel();
     let room = [width.saturating_sub(LEFT + RIGHT).max(1), height.saturating_sub(TOP + BOTTOM).max(1)];
@@ -39,17 +60,47 @@ fn view<'b>(area: &Area<'b>, title: &str, [h, v]: [usize; 2], goals: &[[f64; 3]]
     let names = ["x, forward (mm)", "y, to the left (mm)", "z, up (mm)"];
     // Seen from above, the robot's left is at the left: y runs backwards.
     let across = if h == 1 { [across[1], across[0]] } else { across };
-    let axis = |coordinate: usize, range| Axis { label: names[coordinate].to_owned(), range, ticks: 7, decimals: 0 };
+    let axis = |coordinate: usize, range| Axis {
+        label: names[coordinate].to_owned(),
+        range,
+        ticks: 6,
+        decimals: 0,
+        scale: Scale::Linear,
+    };
     let chart = panel(area, title, &axis(h, across), &axis(v, up))?;
     let flat = |positions: &[[f64; 3]]| positions.iter().map(|p| (p[h], p[v])).collect::<Vec<_>>();
-    plain_line(&chart, &flat(goals), INK, 3)?;
-    for (index, trail) in trails.iter().enumerate() {
-        line(area, &chart, index, &flat(&trail.positions_mm))?;
+    let (goals, reached) = (flat(goals), flat(&trails[index].positions_mm));
+    for (goal, tool) in goals.iter().zip(&reached) {
+        plain_line(&chart, &[*goal, *tool], GREY, 3)?;
     }
-    for (number, goal) in flat(goals).into_iter().enumerate() {
-        numbered(area, pixel(area, &chart, goal), number + 1)?;
+    line(area, &chart, index, &reached)?;
+    number_goals(area, &chart, &goals)
+}
+
+/// A ring at every goal, and numbers: one label for goals that lie together.
+fn number_goals<'b>(area: &Area<'b>, chart: &Chart<'_, 'b>, goals: &[(f64, f64)]) -> Drawn<'b> {
+    let places: Vec<(i32, i32)> = goals.iter().map(|goal| pixel(area, chart, *goal)).collect();
+    places.iter().try_for_each(|place| ring(area, *place, 9, INK))?;
+    for (place, members) in together(&places, TOGETHER_PX) {
+        let numbers: Vec<String> = members.iter().map(|goal| (goal + 1).to_string()).collect();
+        label(area, (place.0, place.1 - 30), &numbers.join(" "))?;
     }
     Ok(())
+}
+
+/// Places nearer than `within` to the first of a group, with that first place.
+fn together(places: &[(i32, i32)], within: i32) -> Vec<((i32, i32), Vec<usize>)> {
+    let mut groups: Vec<((i32, i32), Vec<usize>)> = Vec::new();
+    for (index, place) in places.iter().enumerate() {
+        let near = |(first, _): &&mut ((i32, i32), Vec<usize>)| {
+            (first.0 - place.0).abs() < within && (first.1 - place.1).abs() < within
+        };
+        match groups.iter_mut().find(near) {
+            Some((_, members)) => members.push(index),
+            None => groups.push((*place, vec![index])),
+        }
+    }
+    groups
 }
 
 /// Widens one of the ranges so that a unit is as long on both axes.
@@ -72,5 +123,11 @@ mod tests {
         let [x, y] = to_one_scale([[0.0, 10.0], [5.0, 6.0]], [100, 50]);
         assert_eq!(x, [0.0, 10.0]);
         assert_eq!(y, [3.0, 8.0]);
+    }
+
+    #[test]
+    fn goals_that_lie_together_share_a_label() {
+        let groups = together(&[(0, 0), (100, 0), (5, 39), (0, 40)], 40);
+        assert_eq!(groups, [((0, 0), vec![0, 2]), ((100, 0), vec![1]), ((0, 40), vec![3])]);
     }
 }

@@ -1,0 +1,130 @@
+//! `cgda experiment`: a matrix of settings from a TOML file, run over all cores, as table and figure.
+
+use crate::framework::experiment::figure::{Method, trade_off};
+use crate::framework::experiment::{Experiment, ExperimentSpec, RunId, RunRow, export, run};
+use crate::framework::preset;
+use anyhow::{Context as _, ensure};
+use indicatif::{ParallelProgressIterator as _, ProgressBar, ProgressStyle};
+use rayon::prelude::{IntoParallelRefIterator as _, ParallelIterator as _};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Run an experiment: cells of presets, methods and settings, each for the same seeds.
+#[derive(Debug, clap::Args)]
+pub struct ExperimentArguments {
+    /// The experiment: a TOML file (docs/experiments.md).
+    file: PathBuf,
+    /// Runs of each cell, instead of the file's.
+    #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..))]
+    repetitions: Option<u32>,
+    /// Seed of each cell's first run, instead of the file's.
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Threads; all cores when absent. The results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    threads: Option<u32>,
+    /// Print CSV with every statistic: one line a cell.
+    #[arg(long)]
+    csv: bool,
+    /// Write evaluations against discrepancy there, one marker a cell, as SVG.
+    #[arg(long, value_name = "SVG")]
+    figure: Option<PathBuf>,
+}
+
+/// Runs the experiment and prints its table.
+///
+/// # Errors
+/// A file that is no experiment, a cell that cannot be executed, a figure that cannot be written.
+pub fn run_command(arguments: &ExperimentArguments) -> anyhow::Result<()> {
+    let spec = read(&arguments.file)?;
+    let spec = ExperimentSpec {
+        repetitions: arguments.repetitions.unwrap_or(spec.repetitions),
+        seed: arguments.seed.unwrap_or(spec.seed),
+        ..spec
+    };
+    let mut experiment = Experiment::new(spec.plan(|name| preset::shipped(name).ok())?);
+    finish(&mut experiment, arguments.threads)?;
+    if let Some(path) = &arguments.figure {
+        std::fs::write(path, figure(&experiment)?).with_context(|| format!("{} cannot be written", path.display()))?;
+    }
+    let table = experiment.table();
+    let text = if arguments.csv { export::full_csv(&table) } else { export::markdown(&table) };
+    std::io::stdout().lock().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+fn read(path: &Path) -> anyhow::Result<ExperimentSpec> {
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    toml::from_str(&text).with_context(|| format!("{} is no valid experiment", path.display()))
+}
+
+/// Runs what is pending on `threads` threads (all cores when absent).
+///
+/// # Errors
+/// A cell whose problem cannot be executed.
+pub(super) fn finish(experiment: &mut Experiment, threads: Option<u32>) -> anyhow::Result<()> {
+    let pending: Vec<RunId> = experiment.pending().collect();
+    let bar = ProgressBar::new(pending.len() as u64);
+    bar.set_style(ProgressStyle::with_template("{wide_bar} {pos}/{len} runs, {eta} left")?);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize).build()?;
+    let plan = experiment.plan();
+    let rows = pool.install(|| {
+        let rows = pending.par_iter().progress_with(bar.clone()).map(|id| run(plan, *id));
+        rows.collect::<Result<Vec<RunRow>, _>>()
+    })?;
+    bar.finish_and_clear();
+    rows.into_iter().try_for_each(|row| experiment.record(row))?;
+    Ok(())
+}
+
+/// Evaluations against discrepancy of every cell in which a run counts.
+fn figure(experiment: &Experiment) -> anyhow::Result<String> {
+    let plan = experiment.plan();
+    let unit = |cell: usize| plan.cells[cell].problem.goals.features()[0].unit.as_str();
+    let other = (1..plan.cells.len()).find(|cell| unit(*cell) != unit(0));
+    ensure!(
+        other.is_none(),
+        "cells in {:?} and in {:?} share no axis: leave one kind out, or --figure",
+        unit(0),
+        other.map_or("", unit)
+    );
+    let methods = experiment.table().into_iter().filter_map(|cell| {
+        Some(Method { name: cell.setting, evaluations: cell.evaluations?, discrepancy: cell.discrepancy? })
+    });
+    Ok(trade_off(&plan.name, unit(0), &methods.collect::<Vec<_>>())?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spec() -> ExperimentSpec {
+        read(Path::new("examples/experiments/few-evaluations.toml")).unwrap()
+    }
+
+    fn done(repetitions: u32, threads: u32, keep: impl Fn(&str) -> bool) -> Experiment {
+        let mut spec = ExperimentSpec { repetitions, ..spec() };
+        spec.cells.retain(|cell| keep(&cell.setting));
+        let mut experiment = Experiment::new(spec.plan(|name| preset::shipped(name).ok()).unwrap());
+        finish(&mut experiment, Some(threads)).unwrap();
+        experiment
+    }
+
+    #[test]
+    fn the_shipped_comparison_holds_every_method_and_draws_its_figure() {
+        let experiment = done(2, 2, |setting| setting.starts_with("model") || setting == "FI-PSO");
+        let svg = figure(&experiment).unwrap();
+        assert!(svg.contains("discrepancy (mm)") && svg.contains("FI-PSO"), "{svg}");
+        let plan = spec().plan(|name| preset::shipped(name).ok()).unwrap();
+        let found: std::collections::BTreeSet<_> =
+            plan.cells.iter().map(|cell| cell.problem.execution.method.name()).collect();
+        assert_eq!(Vec::from_iter(found), ["affg_pso", "broyden", "cma_es", "fi_pso", "model", "pso", "sst"]);
+    }
+
+    /// Every method, the swarms and those that own the run too.
+    #[test]
+    fn two_threads_give_the_bits_of_one() {
+        let quick = |setting: &str| setting != "SST";
+        assert_eq!(done(2, 1, quick), done(2, 2, quick));
+    }
+}
