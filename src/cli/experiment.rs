@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn the_shipped_comparison_holds_every_method_and_draws_its_figure() {
-        let experiment = done(2, 2, |setting| setting.starts_with("model") || setting == "FI-PSO");
+        let experiment = done(2, 2, |setting| setting.contains(" mm") || setting == "FI-PSO");
         let svg = figure(&experiment).unwrap();
         assert!(svg.contains("discrepancy (mm)") && svg.contains("FI-PSO"), "{svg}");
         let plan = spec().plan(|name| preset::shipped(name).ok()).unwrap();

@@ -42,8 +42,18 @@ pub struct Rules {
 
 impl Rules {
     /// # Errors
-    /// [`ConstraintError::OutOfRange`] for a parameter of the handling.
-    pub fn check(handling: &HandlingSpec) -> Result<(), ConstraintError> {
+    /// [`ConstraintError::OutOfRange`] for a parameter of the handling, [`ConstraintError::NothingToAppend`] where
+    /// goals without feasible candidate cannot go as asked.
+    pub fn check(handling: &HandlingSpec, on_infeasible: OnInfeasible) -> Result<(), ConstraintError> {
+        let strategy = match handling {
+            HandlingSpec::Penalty(_) => None,
+            HandlingSpec::Rejecting { .. } => Some("rejecting"),
+            HandlingSpec::Repairing { .. } => Some("repairing"),
+            HandlingSpec::Operators { .. } => Some("operators"),
+        };
+        if let (Some(strategy), OnInfeasible::Append) = (strategy, on_infeasible) {
+            return Err(ConstraintError::NothingToAppend { strategy });
+        }
         match handling {
             HandlingSpec::Penalty(spec) => penalty::check(spec),
             HandlingSpec::Rejecting { max_attempts }

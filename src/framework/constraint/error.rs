@@ -83,6 +83,15 @@ pub enum ConstraintError {
     /// The constrained link is not on the robot.
     #[error("the constrained point cannot be reached: {0}")]
     Point(#[from] crate::framework::robot::ChainError),
+    /// Nothing could be appended: the strategy gives an infeasible candidate no discrepancy.
+    #[error(
+        "on_infeasible \"append\" needs handling \"penalty\": {strategy} gives an infeasible candidate no discrepancy, so \
+         that none is the least bad; take a penalty, or on_infeasible \"stop\""
+    )]
+    NothingToAppend {
+        /// The strategy.
+        strategy: &'static str,
+    },
     /// Unexecuted winners could violate a constraint when their goal ends.
     #[error("unexecuted_may_win cannot be combined with constraints: a winner that was never judged would be executed")]
     UnexecutedWinner,

@@ -279,6 +279,6 @@ pub enum OnInfeasible {
     #[default]
     Stop,
     /// The least bad candidate is appended and the run goes on, as in the published runs; the run is invalid if that
-    /// happens at its last goal.
+    /// happens at its last goal. Needs a penalty: the other strategies give infeasible candidates no discrepancy.
     Append,
 }

@@ -104,7 +104,7 @@ pub enum ProblemError {
     #[error(
         "goal {goal}: no candidate satisfied the constraints within the search's limits; the nearest violated them by \
          {nearest:?} (m or rad, one a constraint): widen them, raise max_attempts or the population, or set \
-         on_infeasible = \"append\""
+         on_infeasible = \"append\" with a penalty"
     )]
     Infeasible {
         /// Goal index from 0.

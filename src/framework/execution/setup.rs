@@ -163,7 +163,7 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
     not_negative("target_discrepancy", spec.target_discrepancy.unwrap_or(0.0))?;
     not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
     not_negative("rounding_noise", spec.rounding_noise)?;
-    Rules::check(&spec.handling)?;
+    Rules::check(&spec.handling, spec.on_infeasible)?;
     let unexecuted_may_win = match &spec.method {
         MethodSpec::FiPso(method) => method.unexecuted_may_win,
         MethodSpec::AffgPso(method) => method.unexecuted_may_win,

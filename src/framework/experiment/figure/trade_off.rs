@@ -24,7 +24,7 @@ pub struct Method {
 /// Height of the figure, px.
 const HEIGHT: u32 = 1000;
 /// About the size of a letter and the height of a line, px: the library cannot measure text.
-const LETTER: (i32, i32) = (15, 40);
+const LETTER: (i32, i32) = (15, 36);
 /// From a marker to its name, px.
 const GAP: i32 = 22;
 
@@ -47,11 +47,15 @@ fn logarithms(summary: &Summary) -> [f64; 3] {
     interval(summary).map(|evaluations| evaluations.max(1.0).log10())
 }
 
-/// Whole decades around `values`, at least one.
+/// Whole decades around `values`, at least one, and a little room for the last tick's label.
 fn decades(values: impl Iterator<Item = [f64; 3]>) -> [f64; 2] {
     let widest = |[low, high]: [f64; 2], [l, _, h]: [f64; 3]| [low.min(l), high.max(h)];
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], widest);
-    if low.is_finite() && high.is_finite() { [low.floor(), high.ceil().max(low.floor() + 1.0)] } else { [0.0, 1.0] }
+    if low.is_finite() && high.is_finite() {
+        [low.floor(), high.ceil().max(low.floor() + 1.0) + 0.04]
+    } else {
+        [0.0, 1.0]
+    }
 }
 
 fn draw<'b>(area: &Area<'b>, unit: &str, methods: &[Method]) -> Drawn<'b> {
@@ -135,8 +139,8 @@ mod tests {
 
     #[test]
     fn decades_hold_their_values() {
-        assert_eq!(decades([[1.1, 1.2, 1.3], [2.9, 3.9, 3.95]].into_iter()), [1.0, 4.0]);
-        assert_eq!(decades([[2.0; 3]].into_iter()), [2.0, 3.0]);
+        assert_eq!(decades([[1.1, 1.2, 1.3], [2.9, 3.9, 3.95]].into_iter()), [1.0, 4.04]);
+        assert_eq!(decades([[2.0; 3]].into_iter()), [2.0, 3.04]);
         assert_eq!(decades(std::iter::empty()), [0.0, 1.0]);
     }
 
