@@ -1,12 +1,16 @@
 //! `cgda run`: a problem, from a preset or from demonstrations, searched for R seeds over all cores.
 
+mod figures;
 mod output;
 mod problem;
+mod seeded;
 
-use crate::framework::execution::{Iet, Problem, RunResult, simulate};
+use crate::framework::execution::{Iet, RunResult, simulate};
 use anyhow::Context as _;
+use figures::Figures;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
+use seeded::Seeded;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 
@@ -25,6 +29,15 @@ pub struct RunArguments {
     /// Independent runs, seeds counting up.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     repetitions: u32,
+    /// Also tell the share of runs whose discrepancy is at most this (features' unit); the preset's own when absent.
+    #[arg(long)]
+    threshold: Option<f64>,
+    /// Execute that preset's action before each run, on the same robot with the same seed: its trials are remembered.
+    #[arg(long, value_name = "PRESET")]
+    after: Option<String>,
+    /// The robot starts in a pose drawn by the seed, uniform within its limits.
+    #[arg(long, conflicts_with = "out")]
+    random_start: bool,
     /// Threads; all cores when absent. The result does not depend on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -42,31 +55,38 @@ pub struct RunArguments {
 /// Bad input, a problem whose parts do not fit, files that cannot be written.
 pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     let named = problem::read(&arguments.problem)?;
+    let after = arguments.after.as_ref().map(|preset| problem::read_like(&arguments.problem, preset)).transpose()?;
     // fails before any thread starts
     Iet::new(&named.problem, arguments.seed)?;
+    let seeded = Seeded::new(named, after, arguments.random_start)?;
     let last = u64::from(arguments.repetitions - 1);
     arguments.seed.checked_add(last).context("the last repetition's seed is beyond 64 bits: give a smaller --seed")?;
     let seeds: Vec<u64> = (0..=last).map(|offset| arguments.seed + offset).collect();
-    let runs = search(&named.problem, &seeds, arguments.threads)?;
+    let runs = search(&seeded, &seeds, arguments.threads)?;
     if let Some(directory) = &arguments.out {
-        output::write_trajectories(directory, &named, &runs)?;
+        output::write_trajectories(directory, &seeded.named, &runs)?;
     }
-    let text = if arguments.json { output::json(&named, arguments.seed, &runs)? } else { output::table(&named, &runs) };
+    let figures = Figures::of(&runs, arguments.threshold.or(seeded.named.threshold)).context("no run was made")?;
+    let text = if arguments.json {
+        output::json(&seeded, arguments.seed, &runs, figures)?
+    } else {
+        output::table(&seeded.named, &runs, &figures)
+    };
     std::io::stdout().lock().write_all(text.as_bytes())?;
     Ok(())
 }
 
 /// All runs, in the order of `seeds`.
-fn search(problem: &Problem, seeds: &[u64], threads: Option<u16>) -> anyhow::Result<Vec<RunResult>> {
+fn search(seeded: &Seeded, seeds: &[u64], threads: Option<u16>) -> anyhow::Result<Vec<RunResult>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build()?;
-    let bar = progress_bar((seeds.len() * problem.goals.len()) as u64);
-    let runs = pool.install(|| seeds.par_iter().map(|&seed| one(problem, seed, &bar)).collect());
+    let bar = progress_bar((seeds.len() * seeded.named.problem.goals.len()) as u64);
+    let runs = pool.install(|| seeds.par_iter().map(|&seed| one(seeded, seed, &bar)).collect());
     bar.finish_and_clear();
     runs
 }
 
-fn one(problem: &Problem, seed: u64, bar: &ProgressBar) -> anyhow::Result<RunResult> {
-    let mut iet = Iet::new(problem, seed)?;
+fn one(seeded: &Seeded, seed: u64, bar: &ProgressBar) -> anyhow::Result<RunResult> {
+    let mut iet = Iet::new(&seeded.problem(seed)?, seed)?;
     let mut world = iet.world()?;
     let mut goals_done = 0;
     while !iet.is_finished() {

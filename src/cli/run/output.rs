@@ -1,5 +1,7 @@
 //! What `cgda run` prints and writes.
 
+use super::figures::Figures;
+use super::seeded::Seeded;
 use crate::framework::execution::RunResult;
 use crate::framework::preset::Preset;
 use crate::framework::robot::{Chain, RobotModel};
@@ -16,8 +18,11 @@ struct Report<'a> {
     method: &'static str,
     seed: u64,
     repetitions: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    after: Option<&'a str>,
     runs: Vec<Run<'a>>,
-    mean: Mean,
+    #[serde(flatten)]
+    figures: Figures,
 }
 
 #[derive(Serialize)]
@@ -38,30 +43,15 @@ struct Goal {
     stop_reason: crate::framework::optimizer::StopReason,
 }
 
-#[derive(Serialize)]
-struct Mean {
-    evaluations: f64,
-    discrepancy: f64,
-    painted_percent: Option<f64>,
-}
-
-fn mean(runs: &[RunResult]) -> Mean {
-    let over = |value: &dyn Fn(&RunResult) -> f64| runs.iter().map(value).sum::<f64>() / runs.len() as f64;
-    let painted: Option<Vec<f64>> = runs.iter().map(|r| r.painted_percent).collect();
-    Mean {
-        evaluations: over(&|r| r.evaluations as f64),
-        discrepancy: over(&|r| r.discrepancy),
-        painted_percent: painted.map(|p| p.iter().sum::<f64>() / p.len() as f64),
-    }
-}
-
 /// One JSON object.
-pub(super) fn json(named: &Preset, seed: u64, runs: &[RunResult]) -> anyhow::Result<String> {
+pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[RunResult], figures: Figures) -> anyhow::Result<String> {
+    let named = &seeded.named;
     let report = Report {
         preset: &named.name,
         method: named.problem.execution.method.name(),
         seed,
         repetitions: runs.len(),
+        after: seeded.after.as_ref().map(|before| before.name.as_str()),
         runs: runs
             .iter()
             .map(|run| Run {
@@ -82,13 +72,13 @@ pub(super) fn json(named: &Preset, seed: u64, runs: &[RunResult]) -> anyhow::Res
                 digest: &run.digest,
             })
             .collect(),
-        mean: mean(runs),
+        figures,
     };
     Ok(format!("{}\n", serde_json::to_string(&report)?))
 }
 
-/// The goals of the best run, and the means.
-pub(super) fn table(named: &Preset, runs: &[RunResult]) -> String {
+/// The goals of the best run, and what all runs amount to.
+pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> String {
     let unit = named.problem.goals.features().first().map_or("", |f| f.unit.as_str());
     let mut text = format!("{}: {}\n", named.name, named.description);
     let Some(best) = runs.iter().min_by(|a, b| a.discrepancy.total_cmp(&b.discrepancy)) else { return text };
@@ -116,18 +106,26 @@ pub(super) fn table(named: &Preset, runs: &[RunResult]) -> String {
             joints.join(" ")
         );
     }
-    let mean = mean(runs);
-    let _ = write!(
-        text,
-        "mean of {} runs: {:.1} evaluations, discrepancy {:.3} {unit}",
-        runs.len(),
-        mean.evaluations,
-        mean.discrepancy
-    );
-    if let Some(painted) = mean.painted_percent {
-        let _ = write!(text, ", painted {painted:.2} %");
+    for (name, statistic) in [("mean", &figures.mean), ("median", &figures.median), ("p90", &figures.p90)] {
+        if runs.len() == 1 && name != "mean" {
+            continue;
+        }
+        let _ = write!(
+            text,
+            "{name} of {} runs: {:.1} evaluations, discrepancy {:.3} {unit}",
+            runs.len(),
+            statistic.evaluations,
+            statistic.discrepancy
+        );
+        if let Some(painted) = statistic.painted_percent {
+            let _ = write!(text, ", painted {painted:.2} %");
+        }
+        text.push('\n');
     }
-    text.push('\n');
+    if let Some(reached) = &figures.threshold {
+        let percent = 100.0 * reached.share;
+        let _ = writeln!(text, "discrepancy at most {} {unit}: {percent:.0} % of the runs", reached.discrepancy);
+    }
     text
 }
 

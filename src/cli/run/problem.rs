@@ -17,7 +17,7 @@ pub(super) struct ProblemArguments {
     /// Demonstrations: a file is one of a single stream, a directory one of a stream in each file.
     #[arg(conflicts_with = "preset", required_unless_present = "preset")]
     files: Vec<PathBuf>,
-    /// wax, wax-reachable, paint, paper-wax, paper-paint, or the path of a TOML file.
+    /// A shipped one (an unknown name lists them), or the path of a TOML file.
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Optimisation method, with the preset's own parameters where it has some.
@@ -32,10 +32,13 @@ pub(super) struct ProblemArguments {
     /// A goal ends after this many evaluations.
     #[arg(long, value_name = "EVALUATIONS")]
     max_evaluations_per_goal: Option<u64>,
-    /// What method model believes before its first trial; with a simulator the real world is simulated unlike it: links
-    /// 5 % and base 20 mm off, drawn by the seed.
+    /// What method model believes before its first trial; with a simulator the real robot is simulated unlike it, as by
+    /// --distort.
     #[arg(long, value_enum)]
     prior: Option<PriorArgument>,
+    /// The real robot is simulated unlike its description: links 5 % and base 20 mm off, drawn by the seed.
+    #[arg(long)]
+    distort: bool,
     /// The real world is simulated with a sensor noise of 2 mm and a joint noise of 0.1 degrees, and the method is told.
     #[arg(long)]
     noise: bool,
@@ -84,11 +87,11 @@ enum PriorArgument {
     Simulator,
 }
 
-/// Makes the simulated real world unlike the description, as `--prior` and `--noise` say.
+/// Makes the simulated real world unlike the description, as `--prior`, `--distort` and `--noise` say.
 fn unlike_the_description(problem: &mut Problem, arguments: &ProblemArguments) {
     let mut reality = problem.execution.reality.take().unwrap_or_default();
     let simulator = arguments.prior == Some(PriorArgument::Simulator);
-    if simulator {
+    if simulator || arguments.distort {
         reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..reality };
     }
     let per_mm = match &problem.world {
@@ -100,7 +103,9 @@ fn unlike_the_description(problem: &mut Problem, arguments: &ProblemArguments) {
         reality.sensor_noise = per_mm.map_or(0.0, |mm| 2.0 * mm);
     }
     if let MethodSpec::Model(model) = &mut problem.execution.method {
-        model.prior = if simulator { Prior::Simulator } else { Prior::None };
+        if arguments.prior.is_some() {
+            model.prior = if simulator { Prior::Simulator } else { Prior::None };
+        }
         if arguments.noise {
             // sensor, and what 0.1 degrees in a few joints do half a metre away
             model.noise = per_mm.map_or(0.0, |mm| 2.5 * mm);
@@ -117,10 +122,19 @@ fn joint_value(argument: &str) -> Result<(String, f64), String> {
 
 /// The problem the arguments name.
 pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
-    let mut named = match &arguments.preset {
+    let named = match &arguments.preset {
         Some(name) => read_preset(name)?,
         None => from_demonstrations(arguments)?,
     };
+    adjusted(named, arguments)
+}
+
+/// Preset `name`, executed as the arguments say.
+pub(super) fn read_like(arguments: &ProblemArguments, name: &str) -> anyhow::Result<Preset> {
+    adjusted(read_preset(name)?, arguments)
+}
+
+fn adjusted(mut named: Preset, arguments: &ProblemArguments) -> anyhow::Result<Preset> {
     if let (WorldSpec::Coverage(coverage), true) = (&mut named.problem.world, arguments.no_reset) {
         coverage.resets = false;
     }
@@ -134,7 +148,7 @@ pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
     execution.target_discrepancy = arguments.target_discrepancy.or(execution.target_discrepancy);
     execution.max_evaluations_per_goal = arguments.max_evaluations_per_goal.or(execution.max_evaluations_per_goal);
     execution.metric = arguments.metric.unwrap_or(execution.metric);
-    if arguments.prior.is_some() || arguments.noise {
+    if arguments.prior.is_some() || arguments.noise || arguments.distort {
         unlike_the_description(&mut named.problem, arguments);
     }
     Ok(named)
@@ -181,5 +195,6 @@ fn from_demonstrations(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
         description: format!("{} goals from {count} demonstrations", generalized.goals.len()),
         problem: Problem { goals: generalized.goals, urdf, robot, world, execution, earlier: Vec::new() },
         methods: Vec::new(),
+        threshold: None,
     })
 }

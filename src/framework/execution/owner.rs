@@ -7,10 +7,10 @@ use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
 use crate::framework::constraint::Proposal as Pose;
 use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
-use crate::framework::robot::{Chain, Gene, JointKind};
+use crate::framework::robot::Chain;
 use crate::framework::whole_run::{
-    Axis, Broyden, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space,
-    StepLimits, Stepped, Targets, Trial, WholeRun,
+    Broyden, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space, StepLimits,
+    Stepped, Targets, Trial, WholeRun,
 };
 use crate::framework::world::{self, CoverageSpec, World, WorldSpec};
 use std::sync::Arc;
@@ -187,15 +187,7 @@ fn coverage<'a>(setup: &'a Setup, method: &'static str) -> Result<&'a CoverageSp
 }
 
 fn space(setup: &Setup) -> Space {
-    let chain = &setup.chain;
-    let joints = chain.genes().iter().zip(chain.home());
-    let axis = |(gene, &home): (&Gene, &f64)| Axis {
-        lower: gene.lower,
-        upper: gene.upper,
-        home,
-        revolute: gene.kind != JointKind::Prismatic,
-    };
-    let space = Space::new(joints.map(axis).collect());
+    let space = Space::of(&setup.chain);
     if setup.constraints.is_empty() {
         return space;
     }

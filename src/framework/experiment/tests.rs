@@ -20,7 +20,13 @@ fn preset(name: &str) -> Option<Preset> {
         earlier: Vec::new(),
     };
     let methods = vec![serde_json::from_value(json!({"name": "pso", "swarm": {"population": 9}})).unwrap()];
-    (name == "reach").then(|| Preset { name: name.to_owned(), description: String::new(), problem, methods })
+    (name == "reach").then(|| Preset {
+        name: name.to_owned(),
+        description: String::new(),
+        problem,
+        methods,
+        threshold: None,
+    })
 }
 
 fn spec() -> ExperimentSpec {

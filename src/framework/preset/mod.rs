@@ -21,6 +21,8 @@ pub struct Preset {
     pub problem: Problem,
     /// Other methods with the parameters that belong to this problem.
     pub methods: Vec<MethodSpec>,
+    /// The discrepancy a run should reach, features' unit.
+    pub threshold: Option<f64>,
 }
 
 impl Preset {
@@ -83,6 +85,8 @@ struct RawPreset {
     execution: ExecutionSpec,
     #[serde(default)]
     methods: Vec<MethodSpec>,
+    #[serde(default)]
+    threshold: Option<f64>,
 }
 
 /// [`RobotSpec`] and the URDF's file.
@@ -94,16 +98,23 @@ struct RawRobot {
 }
 
 /// The shipped files: path as presets name it, and text.
-const FILES: [(&str, &str); 3] = [
+const FILES: [(&str, &str); 5] = [
+    ("../robots/seven_joint_arm.urdf", include_str!("../../../examples/robots/seven_joint_arm.urdf")),
+    ("../robots/teo_left_arm.urdf", include_str!("../../../examples/robots/teo_left_arm.urdf")),
     ("../robots/teo_right_arm.urdf", include_str!("../../../examples/robots/teo_right_arm.urdf")),
     ("../worlds/paint_wall.toml", include_str!("../../../examples/worlds/paint_wall.toml")),
     ("../worlds/tool_position_mm.toml", include_str!("../../../examples/worlds/tool_position_mm.toml")),
 ];
 
 /// The shipped presets: name and text.
-const SHIPPED: [(&str, &str); 5] = [
+const SHIPPED: [(&str, &str); 10] = [
     ("wax", include_str!("../../../examples/presets/wax.toml")),
     ("wax-reachable", include_str!("../../../examples/presets/wax-reachable.toml")),
+    ("wax-left", include_str!("../../../examples/presets/wax-left.toml")),
+    ("polish", include_str!("../../../examples/presets/polish.toml")),
+    ("polish-left", include_str!("../../../examples/presets/polish-left.toml")),
+    ("circle-seven-joints", include_str!("../../../examples/presets/circle-seven-joints.toml")),
+    ("eight-seven-joints", include_str!("../../../examples/presets/eight-seven-joints.toml")),
     ("paint", include_str!("../../../examples/presets/paint.toml")),
     ("paper-wax", include_str!("../../../examples/presets/paper-wax.toml")),
     ("paper-paint", include_str!("../../../examples/presets/paper-paint.toml")),
@@ -159,6 +170,7 @@ pub fn parse(
             earlier: Vec::new(),
         },
         methods: raw.methods,
+        threshold: raw.threshold,
     })
 }
 
@@ -184,7 +196,8 @@ mod tests {
         for name in names() {
             let preset = shipped(name).unwrap();
             let iet = Iet::new(&preset.problem, 1).unwrap();
-            assert_eq!(iet.chain().len(), 3, "{name}");
+            let joints = if name.ends_with("-seven-joints") { 7 } else { 3 };
+            assert_eq!(iet.chain().len(), joints, "{name}");
         }
     }
 
@@ -207,6 +220,19 @@ mod tests {
             }
         }
         assert!(!shipped("wax").unwrap().select_method("annealing"));
+    }
+
+    #[test]
+    fn the_left_arm_mirrors_the_right() {
+        let see = |name: &str, joints: &[f64]| {
+            let mut seen = [0.0; 3];
+            Iet::new(&shipped(name).unwrap().problem, 1).unwrap().world().unwrap().observe(joints, &mut seen);
+            seen
+        };
+        for joints in [[0.0, 0.0, 0.0], [0.3, 1.1, -0.2], [1.6, -0.1, 0.9]] {
+            let ([x, y, z], right) = (see("wax-left", &joints), see("wax", &joints));
+            assert!((x - right[0]).abs().max((y + right[1]).abs()).max((z - right[2]).abs()) < 1e-9, "{joints:?}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The joint space a method searches: limits, kinds, home and forbidden poses; identification moves follow from it.
 
+use crate::framework::robot::{Chain, Gene, JointKind};
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -49,6 +50,18 @@ impl fmt::Debug for Space {
 }
 
 impl Space {
+    /// The free joints of `chain`, from its home: every pose inside the limits.
+    #[must_use]
+    pub fn of(chain: &Chain) -> Self {
+        let axis = |(gene, &home): (&Gene, &f64)| Axis {
+            lower: gene.lower,
+            upper: gene.upper,
+            home,
+            revolute: gene.kind != JointKind::Prismatic,
+        };
+        Self::new(chain.genes().iter().zip(chain.home()).map(axis).collect())
+    }
+
     /// Every pose inside the limits of `axes`.
     #[must_use]
     pub fn new(axes: Vec<Axis>) -> Self {

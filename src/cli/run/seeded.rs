@@ -1,0 +1,77 @@
+//! What of a run's problem depends on its seed: where the robot starts, and what it did before.
+
+use crate::framework::execution::{Iet, Problem, simulate};
+use crate::framework::preset::Preset;
+use crate::framework::robot::{Chain, RobotModel, RobotSpec};
+use crate::framework::whole_run::{Space, Trial};
+use anyhow::{Context as _, bail};
+use rand::SeedableRng as _;
+use rand_chacha::ChaCha8Rng;
+
+/// A problem to run for many seeds.
+pub(super) struct Seeded {
+    pub named: Preset,
+    /// The action executed before on the same robot, its trials this run's first knowledge.
+    pub after: Option<Preset>,
+    /// Whether the robot starts in a pose drawn by the seed.
+    pub random_start: bool,
+}
+
+impl Seeded {
+    /// The two actions fit together: one robot, one world, a method that learns from trials.
+    pub(super) fn new(named: Preset, after: Option<Preset>, random_start: bool) -> anyhow::Result<Self> {
+        if let Some(before) = &after {
+            if named.problem.execution.method.name() != "model" {
+                bail!("--after needs --method model: no other method learns from trials of an earlier action");
+            }
+            if !is_same_robot(&named.problem, &before.problem) {
+                bail!("--after {}: that is another robot or world than {}'s", before.name, named.name);
+            }
+        }
+        Ok(Self { named, after, random_start })
+    }
+
+    /// The problem of one seed.
+    pub(super) fn problem(&self, seed: u64) -> anyhow::Result<Problem> {
+        let mut problem = self.named.problem.clone();
+        if self.random_start {
+            problem.robot = started_anywhere(&problem, seed)?;
+        }
+        if let Some(before) = &self.after {
+            problem.earlier = self.trials_of(before, seed).with_context(|| format!("--after {}", before.name))?;
+        }
+        Ok(problem)
+    }
+
+    /// The trials of `before`, executed on the robot of `seed`.
+    fn trials_of(&self, before: &Preset, seed: u64) -> anyhow::Result<Vec<Trial>> {
+        let mut problem = before.problem.clone();
+        if self.random_start {
+            problem.robot = started_anywhere(&problem, seed)?;
+        }
+        let mut iet = Iet::new(&problem, seed)?;
+        let mut world = iet.world()?;
+        simulate(&mut iet, world.as_mut(), u64::MAX)?;
+        Ok(iet.log().to_vec())
+    }
+}
+
+/// Whether both move the same joints of the same robot in the same world; limits and start may differ.
+fn is_same_robot(one: &Problem, other: &Problem) -> bool {
+    let there = RobotSpec {
+        limits: one.robot.limits.clone(),
+        home: one.robot.home.clone(),
+        acceleration: one.robot.acceleration.clone(),
+        ..other.robot.clone()
+    };
+    one.urdf == other.urdf && one.robot == there && one.world == other.world
+}
+
+/// The robot with a start drawn uniformly within its limits by `seed`.
+fn started_anywhere(problem: &Problem, seed: u64) -> anyhow::Result<RobotSpec> {
+    let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
+    let mut pose = chain.home().to_vec();
+    Space::of(&chain).uniform(&mut ChaCha8Rng::seed_from_u64(seed), &mut pose);
+    let home = chain.genes().iter().map(|gene| gene.name.clone()).zip(pose).collect();
+    Ok(RobotSpec { home, ..problem.robot.clone() })
+}
