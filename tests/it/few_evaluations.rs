@@ -58,7 +58,7 @@ async fn a_model_job_by_its_name_gives_the_same_over_http_and_grpc() {
         earlier_runs: Some(proto::EarlierRuns::default()),
         ..Default::default()
     };
-    let work = proto::Work { kind: Some(proto::work::Kind::Execution(execution)) };
+    let work = proto::Work { kind: Some(proto::work::Kind::Execution(Box::new(execution))) };
     let request = proto::CreateJobRequest { work: Some(work), ..Default::default() };
     let id = grpc.jobs.create_job(request).await.unwrap().into_inner().id;
     finished(&http, &id).await;

@@ -71,7 +71,7 @@ fn work(made: &Made, seed: u64) -> proto::Work {
         seed: Some(seed),
         ..Default::default()
     };
-    proto::Work { kind: Some(proto::work::Kind::Execution(execution)) }
+    proto::Work { kind: Some(proto::work::Kind::Execution(Box::new(execution))) }
 }
 
 #[tokio::test]

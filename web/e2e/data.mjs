@@ -89,7 +89,9 @@ export async function fill(server) {
     ...execution({ action: paint, world: wall, repetitions: 3 }),
     execution: { method: sst(10, 10), target_discrepancy: 0 },
   });
-  const done = [await waitForJob(server, loopJob.id), await waitForJob(server, paintJob.id)];
+  const few = { method: { name: "model", noise: 1 }, tolerance: 15, reality: { link_share: 0.05, sensor_noise: 1, lost_share: 0.1 } };
+  const fewJob = await server.api("POST", "/jobs", execution({ execution: few, name: "a dozen trials" }));
+  const done = [await waitForJob(server, loopJob.id), await waitForJob(server, paintJob.id), await waitForJob(server, fewJob.id)];
   for (const job of done) if (job.state !== "SUCCEEDED") throw new Error(`${job.name}: ${JSON.stringify(job.failure)}`);
   return {
     loop,
@@ -100,6 +102,7 @@ export async function fill(server) {
     demonstration: loops[0],
     loopJob: done[0],
     paintJob: done[1],
+    fewJob: done[2],
     execution,
   };
 }

@@ -9,7 +9,7 @@ use rstest::rstest;
 use serde_json::{Value, json};
 
 /// A shipped problem with another method and further fields of its execution.
-fn problem(preset: &str, method: Value, execution: Value) -> Problem {
+fn problem(preset: &str, method: Value, execution: &Value) -> Problem {
     let mut problem = shipped(preset).unwrap().problem;
     let mut spec = serde_json::to_value(&problem.execution).unwrap();
     spec["method"] = method;
@@ -57,7 +57,7 @@ proptest! {
     ) {
         let (preset, name) = [("wax", "model"), ("paint", "particle"), ("paint", "search")][method];
         let (lower, upper) = ([-1.0, y, z], [1.0, 1.0, 1.0]);
-        let bounded = problem(preset, json!({"name": name, "max_step_deg": step_deg}), inside_box(lower, upper));
+        let bounded = problem(preset, json!({"name": name, "max_step_deg": step_deg}), &inside_box(lower, upper));
         let (poses, _) = executed(&bounded, seed, 12);
         prop_assert!(!poses.is_empty());
         let chain = Iet::new(&bounded, seed).unwrap().chain().clone();
@@ -73,7 +73,7 @@ proptest! {
 
 #[test]
 fn goals_outside_the_region_are_out_of_reach_with_their_residual() {
-    let bounded = problem("wax", json!({"name": "model"}), inside_box([-1.0, -0.52, 0.0], [1.0, 1.0, 1.0]));
+    let bounded = problem("wax", json!({"name": "model"}), &inside_box([-1.0, -0.52, 0.0], [1.0, 1.0, 1.0]));
     let (_, result) = executed(&bounded, 4, 200);
     let result = result.unwrap();
     assert!(result.valid && result.goals.iter().all(|goal| goal.feasible));
@@ -87,7 +87,7 @@ fn goals_outside_the_region_are_out_of_reach_with_their_residual() {
 #[test]
 fn consecutive_goals_keep_to_their_step() {
     let step = json!({"constraints": [{"kind": "joint_step", "limit_rad": 0.4, "start": [0.0, 0.0, 0.0]}]});
-    let bounded = problem("wax", json!({"name": "model"}), step);
+    let bounded = problem("wax", json!({"name": "model"}), &step);
     let (poses, result) = executed(&bounded, 4, 200);
     let far = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let home = vec![0.0; 3];
@@ -103,7 +103,7 @@ fn consecutive_goals_keep_to_their_step() {
 #[case("paint", "particle")]
 #[case("paint", "search")]
 fn where_nothing_is_allowed_nothing_is_executed(#[case] preset: &str, #[case] method: &str) {
-    let bounded = problem(preset, json!({"name": method}), inside_box([5.0; 3], [6.0; 3]));
+    let bounded = problem(preset, json!({"name": method}), &inside_box([5.0; 3], [6.0; 3]));
     let (poses, result) = executed(&bounded, 1, 10);
     assert!(poses.is_empty());
     let error = result.unwrap_err().to_string();
@@ -115,7 +115,7 @@ fn where_nothing_is_allowed_nothing_is_executed(#[case] preset: &str, #[case] me
 #[case(json!({"handling": {"strategy": "repairing"}}), "needs handling \"rejecting\"")]
 #[case(json!({"method": {"name": "model", "max_step_deg": 0.0}}), "max_step_deg is 0")]
 fn refuses_what_only_populations_can_do(#[case] execution: Value, #[case] told: &str) {
-    let refused = problem("wax", json!({"name": "model"}), execution);
+    let refused = problem("wax", json!({"name": "model"}), &execution);
     let error = Iet::new(&refused, 1).err().unwrap().to_string();
     assert!(error.contains(told), "{error}");
 }

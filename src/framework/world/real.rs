@@ -41,6 +41,7 @@ pub struct RealitySpec {
     pub seed: Option<u64>,
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }

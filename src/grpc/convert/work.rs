@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub fn work(work: Option<proto::Work>) -> Result<CreateJob, AppError> {
     match required("/kind", work.and_then(|work| work.kind))? {
         Kind::Generalization(work) => generalization(work).map(CreateJob::Generalization),
-        Kind::Execution(work) => execution(work).map(|work| CreateJob::Execution(Box::new(work))),
+        Kind::Execution(work) => execution(*work).map(|work| CreateJob::Execution(Box::new(work))),
         Kind::ExperimentJson(json) => document("/experiment_json", &json).map(CreateJob::Experiment),
     }
 }
@@ -138,7 +138,7 @@ impl From<CreateJob> for proto::Work {
     fn from(work: CreateJob) -> Self {
         let kind = match work {
             CreateJob::Generalization(work) => Kind::Generalization(work.into()),
-            CreateJob::Execution(work) => Kind::Execution((*work).into()),
+            CreateJob::Execution(work) => Kind::Execution(Box::new((*work).into())),
             CreateJob::Experiment(work) => Kind::ExperimentJson(json(&work)),
         };
         Self { kind: Some(kind) }
@@ -255,7 +255,7 @@ mod tests {
         let sst = Method::Sst(proto::SteadyStateTournament::default());
         let spec = proto::ExecutionSpec { method: Some(sst), ..Default::default() };
         let message = proto::Execution { action, robot, world, execution: Some(spec), ..Default::default() };
-        assert_eq!(work(Some(proto::Work { kind: Some(Kind::Execution(message)) })).unwrap(), json);
+        assert_eq!(work(Some(proto::Work { kind: Some(Kind::Execution(Box::new(message))) })).unwrap(), json);
     }
 
     #[test]

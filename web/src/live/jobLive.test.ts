@@ -96,4 +96,18 @@ describe("applyEvents", () => {
     const stranger = { seq: 1, job, at, type: "weather" } as unknown as JobEvent;
     expect(applyEvents(INITIAL, [stranger])).toEqual({ ...INITIAL, lastSeq: 1 });
   });
+
+  it("keeps each trial once and forgets those of the repetition before", () => {
+    const trial = (seq: number, repetition: number, index: number): JobEvent => ({
+      seq,
+      job,
+      at,
+      type: "trial",
+      trial: { repetition, index, goal: 0, residual: 5 - index },
+    });
+    const first = applyEvents(INITIAL, [trial(1, 0, 0), trial(2, 0, 1), trial(2, 0, 1)]);
+    expect(first.trials.map((each) => each.index)).toEqual([0, 1]);
+    const second = applyEvents(first, [trial(3, 1, 0)]);
+    expect(second.trials.map((each) => each.repetition)).toEqual([1]);
+  });
 });

@@ -1,6 +1,6 @@
 // What the events of one job add up to. Pure: (state, event) -> state, so that a replay gives what was watched live.
 
-import type { GoalProgress, JobEvent, JobProgress, JobState } from "../api/types";
+import type { GoalProgress, JobEvent, JobProgress, JobState, TrialProgress } from "../api/types";
 
 /** Best discrepancy against evaluations of one repetition, in parallel columns. */
 export interface Curve {
@@ -21,6 +21,8 @@ export interface LiveJob {
   progress: JobProgress | null;
   /** Goals finished in the repetition shown, by index. */
   goals: GoalProgress[];
+  /** Trials of the repetition shown, where the method tells each one. */
+  trials: TrialProgress[];
   curve: Curve;
   runs: FinishedRun[];
 }
@@ -37,6 +39,7 @@ export const INITIAL: LiveJob = {
   attempt: null,
   progress: null,
   goals: [],
+  trials: [],
   curve: emptyCurve(0),
   runs: [],
 };
@@ -56,6 +59,8 @@ function applyEvent(live: LiveJob, event: JobEvent): LiveJob {
       return withProgress(next, event.progress);
     case "goal":
       return withGoal(next, event.goal);
+    case "trial":
+      return { ...next, trials: withTrial(next.trials, event.trial) };
     case "run":
       return { ...next, runs: withRun(next.runs, event) };
     default:
@@ -81,6 +86,11 @@ function withGoal(live: LiveJob, goal: GoalProgress): LiveJob {
   const evaluations = goals.reduce((sum, each) => sum + each.evaluations, 0);
   const curve = withPoint(sameRun ? live.curve : emptyCurve(goal.repetition), evaluations, goal.discrepancy, goal.index);
   return { ...live, goals, curve };
+}
+
+/** A trial of a later repetition begins anew. */
+function withTrial(trials: TrialProgress[], trial: TrialProgress): TrialProgress[] {
+  return [...trials.filter((other) => other.repetition === trial.repetition && other.index < trial.index), trial];
 }
 
 function withPoint(curve: Curve, evaluations: number, discrepancy: number | null, goal: number): Curve {

@@ -1,14 +1,15 @@
 // The numbers, curves and ladder of an execution while it runs and after.
 
 import { Chart } from "../../charts/Chart";
-import type { Job, JobProgress, JobState } from "../../api/types";
+import type { GoalProgress, Job, JobProgress, JobState, TrialProgress } from "../../api/types";
 import { formatCount, formatDuration, formatNumber, formatPercent, formatQuantity } from "../../lib/format";
 import { isFinal } from "../../lib/states";
 import type { LiveJob } from "../../live/jobLive";
-import { Card, Facts, ProgressBar } from "../../ui/basics";
+import { Card, Facts, ProgressBar, type Fact } from "../../ui/basics";
 import { ProvenanceLegend } from "../../ui/Provenance";
 import { useNow } from "../../ui/useNow";
 import { GoalLadder } from "./GoalLadder";
+import { TrialsChart } from "./Trials";
 
 interface Props {
   job: Job;
@@ -25,13 +26,20 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
   const active = searching
     ? { index: progress.goal_index, evaluations: progress.goal_evaluations, discrepancy: progress.discrepancy ?? null }
     : null;
+  const kept = progress.trials ?? [];
+  const trials = live.trials.length >= kept.length ? live.trials : kept;
   const cumulative = goals.map((_, index) => goals.slice(0, index + 1).reduce((sum, goal) => sum + goal.evaluations, 0));
   return (
     <>
       <Card>
-        <Summary job={job} progress={progress} state={state} unit={unit} />
+        <Summary job={job} progress={progress} goals={goals} trials={trials} state={state} unit={unit} />
       </Card>
       <div className="columns">
+        {trials.length > 0 ? (
+          <Card title="Trials" aside={<RunLabel progress={progress} />}>
+            <TrialsChart trials={trials} unit={unit} />
+          </Card>
+        ) : (
         <div className="stack">
           <Card title="Discrepancy" aside={<RunLabel progress={progress} />}>
             <DiscrepancyChart live={live} unit={unit} boundaries={cumulative} />
@@ -41,8 +49,9 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
             <CumulativeChart cumulative={cumulative} goals={progress.goals} />
           </Card>
         </div>
+        )}
         <Card title="Goals" aside={<RunLabel progress={progress} />}>
-          <GoalLadder goals={progress.goals} finished={goals} active={active} unit={unit} />
+          <GoalLadder goals={progress.goals} finished={goals} active={active} trials={trials} unit={unit} />
         </Card>
       </div>
     </>
@@ -64,20 +73,40 @@ function RunLabel({ progress }: { progress: JobProgress }) {
   );
 }
 
-function Summary({ job, progress, state, unit }: { job: Job; progress: JobProgress; state: JobState; unit: string }) {
+interface SummaryProps {
+  job: Job;
+  progress: JobProgress;
+  goals: readonly GoalProgress[];
+  trials: readonly TrialProgress[];
+  state: JobState;
+  unit: string;
+}
+
+/** Goals that ended: those out of reach are none that are reached. */
+function goalsFact({ progress, goals, trials }: Pick<SummaryProps, "progress" | "goals" | "trials">): Fact {
+  if (trials.length > 0 && goals.length === 0) {
+    return { name: "Goals tried", value: `${new Set(trials.map((trial) => trial.goal)).size} of ${progress.goals}` };
+  }
+  const ended = Math.min(progress.goals, Math.max(progress.finished_goals.length, progress.goal_index));
+  const beyond = goals.filter((goal) => goal.stop_reason === "out_of_reach").length;
+  const reached = `${ended - beyond} of ${progress.goals}`;
+  return { name: "Goals reached", value: progress.goals === 0 ? "–" : beyond === 0 ? reached : `${reached}, ${beyond} out of reach` };
+}
+
+function Summary({ job, progress, goals, trials, state, unit }: SummaryProps) {
   const now = useNow();
   const started = job.started_at == null ? null : Date.parse(job.started_at);
   const ended = job.finished_at == null ? now : Date.parse(job.finished_at);
   const elapsedS = started === null ? null : Math.max(0, (ended - started) / 1000);
-  const running = state === "RUNNING" && progress.fraction > 0.02 && elapsedS !== null;
+  // Such a method goes back and forth between goals: how much is left, it does not know either.
+  const running = trials.length === 0 && state === "RUNNING" && progress.fraction > 0.02 && elapsedS !== null;
   const leftS = running ? (elapsedS * (1 - progress.fraction)) / progress.fraction : null;
-  const done = Math.min(progress.goals, Math.max(progress.finished_goals.length, progress.goal_index));
   return (
     <div className="stack">
       <Facts
         large
         facts={[
-          { name: "Goals reached", value: progress.goals === 0 ? "–" : `${done} of ${progress.goals}` },
+          goalsFact({ progress, goals, trials }),
           { name: "Evaluations", value: formatCount(progress.total_evaluations) },
           { name: "Best discrepancy", value: formatQuantity(progress.discrepancy, unit) },
           { name: "Running for", value: formatDuration(elapsedS) },

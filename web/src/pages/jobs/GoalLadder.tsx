@@ -1,7 +1,8 @@
 // The goals of a run in their order: which are reached at which cost, which one is sought now.
 
-import type { GoalProgress } from "../../api/types";
+import type { GoalProgress, TrialProgress } from "../../api/types";
 import { formatCount, formatNumber, humanize } from "../../lib/format";
+import { bestOf } from "./Trials";
 
 interface Props {
   /** Number of goals; 0 while it is unknown. */
@@ -9,6 +10,8 @@ interface Props {
   finished: readonly GoalProgress[];
   /** The goal sought now; null when none is. */
   active: { index: number; evaluations: number; discrepancy: number | null } | null;
+  /** The trials so far, where the method tells each one: then a goal's best is its own distance. */
+  trials: readonly TrialProgress[];
   unit: string;
 }
 
@@ -16,12 +19,14 @@ interface Rung {
   index: number;
   kind: "done" | "active" | "waiting";
   evaluations: number | null;
-  discrepancy: number | null;
+  /** Best discrepancy up to this goal, or the distance from it. */
+  best: number | null;
   note: string;
 }
 
-export function GoalLadder({ goals, finished, active, unit }: Props) {
-  const rungs = Array.from({ length: Math.max(goals, finished.length) }, (_, index) => rung(index, finished, active));
+export function GoalLadder({ goals, finished, active, trials, unit }: Props) {
+  const one = (index: number) => (trials.length > 0 ? tried(index, finished, active, trials) : rung(index, finished, active));
+  const rungs = Array.from({ length: Math.max(goals, finished.length) }, (_, index) => one(index));
   const most = Math.max(1, ...rungs.map((each) => each.evaluations ?? 0));
   if (rungs.length === 0) return <p className="muted">The goals are known once a worker has the job.</p>;
   return (
@@ -30,7 +35,10 @@ export function GoalLadder({ goals, finished, active, unit }: Props) {
         <span>Goal</span>
         <span />
         <span className="numeric">Evaluations</span>
-        <span className="numeric">Best{unit && `, ${unit}`}</span>
+        <span className="numeric">
+          {trials.length > 0 ? "Away" : "Best"}
+          {unit && `, ${unit}`}
+        </span>
         <span>Ended by</span>
       </li>
       {rungs.map((each) => (
@@ -40,7 +48,7 @@ export function GoalLadder({ goals, finished, active, unit }: Props) {
             <div style={{ width: `${(100 * (each.evaluations ?? 0)) / most}%` }} />
           </span>
           <span className="numeric">{formatCount(each.evaluations)}</span>
-          <span className="numeric">{formatNumber(each.discrepancy)}</span>
+          <span className="numeric">{formatNumber(each.best)}</span>
           <span>{each.note}</span>
         </li>
       ))}
@@ -52,14 +60,30 @@ function rung(index: number, finished: readonly GoalProgress[], active: Props["a
   const done = finished.find((goal) => goal.index === index);
   if (done !== undefined) {
     const { evaluations, discrepancy } = done;
-    return { index, kind: "done", evaluations, discrepancy, note: humanize(done.stop_reason) };
+    return { index, kind: "done", evaluations, best: discrepancy, note: humanize(done.stop_reason) };
   }
-  if (active?.index === index) return { ...active, kind: "active", note: "searching" };
-  return { index, kind: "waiting", evaluations: null, discrepancy: null, note: "waiting" };
+  if (active?.index === index) {
+    return { index, kind: "active", evaluations: active.evaluations, best: active.discrepancy, note: "searching" };
+  }
+  return { index, kind: "waiting", evaluations: null, best: null, note: "waiting" };
+}
+
+/** A goal of a method that goes back and forth between goals: all of them end together. */
+function tried(index: number, finished: Props["finished"], active: Props["active"], trials: Props["trials"]): Rung {
+  const done = finished.find((goal) => goal.index === index);
+  if (done !== undefined) {
+    const { evaluations, residual = null } = done;
+    const reached = done.stop_reason === "tolerance" ? (evaluations === 0 ? "reached on the way" : "reached") : humanize(done.stop_reason);
+    return { index, kind: "done", evaluations, best: residual, note: reached };
+  }
+  const evaluations = trials.filter((trial) => trial.goal === index).length;
+  const best = bestOf(trials, index);
+  if (active?.index === index) return { index, kind: "active", evaluations, best, note: "trying" };
+  return { index, kind: "waiting", evaluations: evaluations === 0 ? null : evaluations, best, note: evaluations === 0 ? "waiting" : "tried" };
 }
 
 function describe(rung: Rung): string {
   const place = `Goal ${rung.index + 1}, ${rung.note}`;
   if (rung.evaluations === null) return place;
-  return `${place}: ${formatCount(rung.evaluations)} evaluations, best discrepancy ${formatNumber(rung.discrepancy)}`;
+  return `${place}: ${formatCount(rung.evaluations)} evaluations, best ${formatNumber(rung.best)}`;
 }

@@ -4,18 +4,12 @@ import { useState, type SyntheticEvent } from "react";
 import { useNavigate, useSearchParams } from "react-router";
 import { useCreateJob } from "../../api/mutations";
 import { useActions, useRobots, useWorlds } from "../../api/queries";
-import type { Metric } from "../../api/types";
 import { Card, PageHead } from "../../ui/basics";
 import { Problem } from "../../ui/feedback";
 import { NumberField, SelectField } from "../../ui/fields";
 import { DryRun } from "./DryRun";
 import { EMPTY_FORM, requestOf, suggested, type JobForm } from "./jobForm";
-
-const METRICS: { value: Metric; label: string }[] = [
-  { value: "multivariate", label: "multivariate: all features jointly" },
-  { value: "sum_of_features", label: "sum of features: one path a feature" },
-  { value: "aquila", label: "aquila: as in the published runs" },
-];
+import { MethodCard, RealityCard } from "./MethodCard";
 
 export function NewJobPage() {
   const [search] = useSearchParams();
@@ -25,6 +19,8 @@ export function NewJobPage() {
   const change = (part: Partial<JobForm>) => setForm((before) => ({ ...before, ...part }));
   const text = (key: keyof JobForm) => ({ value: form[key], onChange: (value: string) => change({ [key]: value }) });
 
+  const worlds = useWorlds().data?.pages.flatMap((page) => page.items) ?? [];
+  const world = worlds.find((each) => each.id === form.world);
   const request = requestOf(form);
   const submit = (event: SyntheticEvent) => {
     event.preventDefault();
@@ -40,14 +36,8 @@ export function NewJobPage() {
       <form className="columns wide-first" onSubmit={submit}>
         <div className="stack">
           <What form={form} change={change} />
-          <Card title="Method: steady-state tournament (SST)">
-            <div className="fields">
-              <NumberField label="Population P" hint="Individuals a goal starts with." min={3} required {...text("population")} />
-              <NumberField label="Stagnation S" hint="A goal ends after S + 1 generations without improvement." min={0} required {...text("stagnation")} />
-              <NumberField label="Mutation probability" hint="After each crossover, 0 to 1." min={0} max={1} step="any" required {...text("mutation")} />
-              <SelectField label="Metric" hint="How discrepancy is measured." options={METRICS} {...text("metric")} />
-            </div>
-          </Card>
+          <MethodCard form={form} world={world} change={change} />
+          <RealityCard form={form} change={change} />
           <Card title="When a goal ends early">
             <div className="fields">
               <NumberField label="Tolerance" hint="An observation so near the goal is good enough, in the features' unit." min={0} step="any" {...text("tolerance")} />

@@ -1,11 +1,17 @@
 // The new-job form as data: its defaults by world, and the request it makes.
 
-import type { CreateJob, Metric, World } from "../../api/types";
+import type { CreateJob, ExecutionSpec, MethodChoice, Metric, World } from "../../api/types";
+import type { MethodName } from "./methods";
 
 export interface JobForm {
   action: string;
   robot: string;
   world: string;
+  method: MethodName;
+  prior: "none" | "simulator";
+  noise: string;
+  maxStep: string;
+  earlier: "found" | "none";
   population: string;
   stagnation: string;
   mutation: string;
@@ -13,6 +19,13 @@ export interface JobForm {
   tolerance: string;
   target: string;
   maxEvaluations: string;
+  reality: "described" | "other";
+  links: string;
+  base: string;
+  sensorNoise: string;
+  jointNoise: string;
+  lost: string;
+  realSeed: string;
   seed: string;
   repetitions: string;
   pace: string;
@@ -22,6 +35,11 @@ export const EMPTY_FORM: JobForm = {
   action: "",
   robot: "",
   world: "",
+  method: "model",
+  prior: "none",
+  noise: "0",
+  maxStep: "",
+  earlier: "found",
   population: "50",
   stagnation: "3",
   mutation: "0.6",
@@ -29,15 +47,23 @@ export const EMPTY_FORM: JobForm = {
   tolerance: "",
   target: "",
   maxEvaluations: "",
+  reality: "described",
+  links: "5",
+  base: "20",
+  sensorNoise: "0",
+  jointNoise: "0",
+  lost: "0",
+  realSeed: "",
   seed: "",
   repetitions: "1",
   pace: "",
 };
 
-/** What a world suggests: covering a wall is a stepwise score that small, patient populations climb, and 0 is perfect. */
+/** What a world suggests: the method of fewest evaluations there; for SST on a wall, a stepwise score that small,
+ * patient populations climb, and 0 is perfect. */
 export function suggested(world: World): Partial<JobForm> {
-  if (world.spec.kind === "coverage") return { population: "10", stagnation: "10", target: "0" };
-  return { population: "50", stagnation: "3", target: "" };
+  if (world.spec.kind === "coverage") return { method: "particle", population: "10", stagnation: "10", target: "0" };
+  return { method: "model", population: "50", stagnation: "3", target: "" };
 }
 
 const optional = (text: string) => (text.trim() === "" ? null : Number(text));
@@ -51,19 +77,52 @@ export function requestOf(form: JobForm): CreateJob | null {
     robot: form.robot,
     world: form.world,
     execution: {
-      method: {
-        name: "sst",
-        population: Number(form.population),
-        stagnation: Number(form.stagnation),
-        mutation_probability: Number(form.mutation),
-      },
+      method: methodOf(form),
       metric: form.metric,
       tolerance: optional(form.tolerance),
       target_discrepancy: optional(form.target),
       max_evaluations_per_goal: optional(form.maxEvaluations),
+      ...realityOf(form),
     },
     seed: optional(form.seed),
     repetitions: Number(form.repetitions),
     max_evaluations_per_s: optional(form.pace),
+    ...(form.method === "model" && form.earlier === "none" ? { earlier_runs: [] } : {}),
+  };
+}
+
+function methodOf(form: JobForm): MethodChoice {
+  const step = { max_step_deg: optional(form.maxStep) };
+  switch (form.method) {
+    case "model":
+      return { name: "model", prior: form.prior, noise: Number(form.noise), ...step };
+    case "particle":
+      return { name: "particle", ...step };
+    case "search":
+      return { name: "search", ...step };
+    case "sst":
+      return {
+        name: "sst",
+        population: Number(form.population),
+        stagnation: Number(form.stagnation),
+        mutation_probability: Number(form.mutation),
+      };
+    default:
+      return form.method;
+  }
+}
+
+/** How far the simulated real robot is from its description: shares in percent and millimetres as people say them. */
+function realityOf(form: JobForm): Pick<ExecutionSpec, "reality"> {
+  if (form.reality === "described") return {};
+  return {
+    reality: {
+      link_share: Number(form.links) / 100,
+      base_shift_m: Number(form.base) / 1000,
+      sensor_noise: Number(form.sensorNoise),
+      joint_noise_deg: Number(form.jointNoise),
+      lost_share: Number(form.lost) / 100,
+      ...(form.realSeed.trim() === "" ? {} : { seed: Number(form.realSeed) }),
+    },
   };
 }

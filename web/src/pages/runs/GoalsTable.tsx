@@ -15,6 +15,7 @@ export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) 
                 {feature.unit && `, ${feature.unit}`}
               </th>
             ))}
+            <th scope="col" className="numeric">Away</th>
             <th scope="col" className="numeric">Discrepancy</th>
             <th scope="col" className="numeric">Evaluations</th>
             <th scope="col">Ended by</th>
@@ -29,6 +30,7 @@ export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) 
                   {formatNumber(goal.goal[column])} <span className="muted">→</span> {formatNumber(goal.observation[column])}
                 </td>
               ))}
+              <td className="numeric">{formatNumber(goal.residual)}</td>
               <td className="numeric">{formatNumber(goal.discrepancy)}</td>
               <td className="numeric">{formatCount(goal.evaluations)}</td>
               <td className="nowrap">{humanize(goal.stop_reason)}</td>

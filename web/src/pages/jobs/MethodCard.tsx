@@ -1,0 +1,133 @@
+// The method of a new job with its parameters, and the robot it will meet.
+
+import type { Metric, World } from "../../api/types";
+import { Card } from "../../ui/basics";
+import { NumberField, SelectField } from "../../ui/fields";
+import type { JobForm } from "./jobForm";
+import { methodNamed, methodsFor, type MethodName } from "./methods";
+
+const METRICS: { value: Metric; label: string }[] = [
+  { value: "multivariate", label: "multivariate: all features jointly" },
+  { value: "sum_of_features", label: "sum of features: one path a feature" },
+  { value: "aquila", label: "aquila: as in the published runs" },
+];
+
+interface Props {
+  form: JobForm;
+  world: World | undefined;
+  change: (part: Partial<JobForm>) => void;
+}
+
+type Text = (key: keyof JobForm) => { value: string; onChange: (value: string) => void };
+
+export function MethodCard({ form, world, change }: Props) {
+  const text: Text = (key) => ({ value: form[key], onChange: (value) => change({ [key]: value }) });
+  const method = methodNamed(form.method);
+  return (
+    <Card title="Method">
+      <div className="fields">
+        <SelectField
+          label="Method"
+          value={form.method}
+          onChange={(value) => change({ method: value as MethodName })}
+          options={methodsFor(world).map(({ name, label }) => ({ value: name, label }))}
+        />
+        <SelectField label="Metric" hint="How discrepancy is measured." options={METRICS} {...text("metric")} />
+      </div>
+      <p className="small muted" aria-live="polite">
+        {method?.explanation}
+      </p>
+      <div className="fields">
+        {form.method === "model" && <ModelFields form={form} text={text} />}
+        {form.method === "sst" && <TournamentFields text={text} />}
+        {method?.few === true && (
+          <NumberField
+            label="Largest step, degrees"
+            hint="Of any joint from one trial to the next; empty is free."
+            min={0}
+            step="any"
+            {...text("maxStep")}
+          />
+        )}
+      </div>
+    </Card>
+  );
+}
+
+function ModelFields({ form, text }: { form: JobForm; text: Text }) {
+  return (
+    <>
+      <SelectField
+        label="Known before the first trial"
+        hint={form.prior === "none" ? "It begins with small moves of each joint." : "It halves the evaluations, even when the description is off."}
+        options={[
+          { value: "none", label: "nothing" },
+          { value: "simulator", label: "the described robot, as a simulator" },
+        ]}
+        {...text("prior")}
+      />
+      <NumberField
+        label="Noise of the sensor"
+        hint="Standard deviation of a feature, in its unit; 0 is exact."
+        min={0}
+        step="any"
+        required
+        {...text("noise")}
+      />
+      <SelectField
+        label="Earlier runs on this robot"
+        hint="Trials with the same tool, world and features tell as much as new ones."
+        options={[
+          { value: "found", label: "begin with their trials" },
+          { value: "none", label: "leave them out" },
+        ]}
+        {...text("earlier")}
+      />
+    </>
+  );
+}
+
+function TournamentFields({ text }: { text: Text }) {
+  return (
+    <>
+      <NumberField label="Population P" hint="Individuals a goal starts with." min={3} required {...text("population")} />
+      <NumberField label="Stagnation S" hint="A goal ends after S + 1 generations without improvement." min={0} required {...text("stagnation")} />
+      <NumberField label="Mutation probability" hint="After each crossover, 0 to 1." min={0} max={1} step="any" required {...text("mutation")} />
+    </>
+  );
+}
+
+/** The simulated robot a job meets: as described, or a little other, as real ones are. */
+export function RealityCard({ form, change }: Omit<Props, "world">) {
+  const text: Text = (key) => ({ value: form[key], onChange: (value) => change({ [key]: value }) });
+  return (
+    <Card title="Simulated real robot">
+      <div className="fields">
+        <SelectField
+          label="The robot is"
+          hint="A rehearsal: the method knows the description only."
+          options={[
+            { value: "described", label: "exactly as described" },
+            { value: "other", label: "a little unlike its description" },
+          ]}
+          {...text("reality")}
+        />
+        {form.reality === "other" && (
+          <>
+            <NumberField label="Links off by, %" min={0} max={90} step="any" required {...text("links")} />
+            <NumberField label="Base off by, mm" min={0} step="any" required {...text("base")} />
+            <NumberField label="Sensor noise" hint="Standard deviation, features' unit." min={0} step="any" required {...text("sensorNoise")} />
+            <NumberField label="Joint noise, degrees" min={0} step="any" required {...text("jointNoise")} />
+            <NumberField label="Observations lost, %" min={0} max={99} step="any" required {...text("lost")} />
+            <NumberField
+              label="Robot number"
+              hint="The same number is the same robot in every job; empty draws one a run."
+              min={0}
+              {...text("realSeed")}
+            />
+          </>
+        )}
+      </div>
+    </Card>
+  );
+}

@@ -1,0 +1,71 @@
+// The methods a job can be given, in words.
+
+import type { World } from "../../api/types";
+
+export type MethodName = "model" | "particle" | "search" | "broyden" | "cma_es" | "sst";
+
+export interface Method {
+  name: MethodName;
+  label: string;
+  /** What it does and when it is the right one. */
+  explanation: string;
+  /** The only kind of world it works in; any when absent. */
+  world?: World["spec"]["kind"];
+  /** It decides every trial of the whole run, and each one counts: made for a real robot. */
+  few: boolean;
+}
+
+export const METHODS: readonly Method[] = [
+  {
+    name: "model",
+    label: "MODEL-IET: a dozen evaluations",
+    explanation:
+      "Learns from each trial what the joints do to the features, and tries next the pose it expects nearest to a goal. It knows when a goal is out of reach and says how near it came.",
+    world: "tool_position",
+    few: true,
+  },
+  {
+    name: "particle",
+    label: "PARTICLE-IET: one evaluation a cell, with a simulator",
+    explanation:
+      "Takes the described robot as an uncertain simulator: many slightly different robots vote for the next pose, and each trial tells which of them are wrong.",
+    world: "coverage",
+    few: true,
+  },
+  {
+    name: "search",
+    label: "SEARCH-IET: nothing known, only the percentage seen",
+    explanation:
+      "Needs no simulator: it searches where no trial has been near yet, and more where trials gained. Takes some four times as many evaluations as PARTICLE-IET.",
+    world: "coverage",
+    few: true,
+  },
+  {
+    name: "broyden",
+    label: "Broyden: Gauss-Newton with an estimated Jacobian",
+    explanation: "A classical yardstick: few evaluations where it converges, with some bad runs.",
+    world: "tool_position",
+    few: false,
+  },
+  {
+    name: "cma_es",
+    label: "CMA-ES: a classical evolution strategy",
+    explanation: "A yardstick known everywhere: hundreds of evaluations, begun at the previous goal's result.",
+    few: false,
+  },
+  {
+    name: "sst",
+    label: "SST: steady-state tournament, as in the paper",
+    explanation: "The paper's evolutionary search: thousands of evaluations, for simulation.",
+    few: false,
+  },
+];
+
+export function methodNamed(name: MethodName): Method | undefined {
+  return METHODS.find((method) => method.name === name);
+}
+
+/** The methods that work in a world; all while it is not chosen. */
+export function methodsFor(world: World | undefined): readonly Method[] {
+  return METHODS.filter((method) => world === undefined || method.world === undefined || method.world === world.spec.kind);
+}
