@@ -1,7 +1,7 @@
 //! Tables as text: CSV for machines, Markdown for people. Numbers in CSV are written to the last bit.
 
 use super::paper::PaperCell;
-use super::{CellResult, PairedComparison, Summary};
+use super::{CellResult, PairedComparison, Summary, agreement};
 use std::fmt::Write;
 
 /// Columns of [`paper_csv`].
@@ -156,7 +156,8 @@ pub fn markdown(results: &[CellResult]) -> String {
     markdown_table(&HEADER, &results.iter().map(row).collect::<Vec<_>>(), 3)
 }
 
-/// The paper's tables as Markdown: ours beside published and raw, the ratio to raw, and whether it agrees.
+/// The paper's tables as Markdown: ours beside published and raw, the ratio to raw, and whether it agrees; below, all
+/// means together.
 ///
 /// # Panics
 /// If there are not as many cells as results.
@@ -205,7 +206,18 @@ pub fn paper_markdown(cells: &[PaperCell], results: &[CellResult]) -> String {
             r.invalid.to_string(),
         ]
     };
-    markdown_table(&HEADER, &cells.iter().zip(results).map(row).collect::<Vec<_>>(), 4)
+    let mut text = markdown_table(&HEADER, &cells.iter().zip(results).map(row).collect::<Vec<_>>(), 4);
+    if let Some(found) = agreement(cells, results) {
+        let (k, (cell, quantity, z)) = (found.means, found.largest);
+        let spread = (2.0 * k as f64).sqrt();
+        let _ = write!(
+            text,
+            "\n{k} means against the raw logs: sum of z\u{b2} = {:.1}, by chance {k} \u{b1} {spread:.1} (p = {:.2}); \
+             largest z = {z:+.1}, table {}, {}, {quantity}\n",
+            found.sum_of_squares, found.p_value, cells[cell].table, cells[cell].setting
+        );
+    }
+    text
 }
 
 /// A paired comparison in one sentence.

@@ -5,6 +5,7 @@
 //!   whatever order and on however many threads, gets the same table to the last digit.
 //! - Every cell runs the same seeds, so cells are compared pair by pair.
 
+mod agreement;
 pub mod export;
 pub mod figure;
 mod paired;
@@ -19,6 +20,7 @@ mod summary;
 #[cfg(test)]
 mod tests;
 
+pub use agreement::{Agreement, Disagreement, agreement};
 pub use paired::{PairedComparison, compare};
 pub use result::{CellResult, Quantity};
 pub use run::{RunError, result, run, run_while};

@@ -5,7 +5,7 @@
 //! from the authors' published logs.
 
 use super::patch::merge;
-use super::{CellResult, CellSpec, ExperimentSpec, InvalidRule};
+use super::{CellSpec, ExperimentSpec, InvalidRule};
 use crate::framework::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -191,46 +191,6 @@ impl PaperTables {
             invalid: cell.invalid,
         })
     }
-}
-
-impl PaperCell {
-    /// What keeps `result` from agreeing with the raw numbers; empty where it does.
-    #[must_use]
-    pub fn disagreements(&self, result: &CellResult) -> Vec<Disagreement> {
-        let sd_share = if self.action == "wax" { 0.25 } else { 0.35 };
-        let (evaluations, discrepancy) = (result.evaluations, result.discrepancy);
-        let share = |expected: Option<f64>, share: f64| expected.map(|expected| (expected, expected * share));
-        let checks = [
-            ("evaluations", evaluations.map(|s| s.mean), share(Some(self.raw.evaluations), self.tolerance.evaluations)),
-            ("discrepancy", discrepancy.map(|s| s.mean), share(Some(self.raw.discrepancy), self.tolerance.discrepancy)),
-            ("evaluations sd", evaluations.and_then(|s| s.sd), share(self.raw.evaluations_sd, sd_share)),
-            ("discrepancy sd", discrepancy.and_then(|s| s.sd), share(self.raw.discrepancy_sd, sd_share)),
-            (
-                "painted",
-                result.painted.map(|s| s.mean),
-                self.published.painted_percent.map(|expected| (expected, self.tolerance.painted_points)),
-            ),
-        ];
-        let judge = |(quantity, found, band): (&'static str, Option<f64>, Option<(f64, f64)>)| {
-            let (expected, allowed) = band?;
-            let agrees = found.is_some_and(|found| (found - expected).abs() <= allowed);
-            (!agrees).then_some(Disagreement { quantity, found, expected, allowed })
-        };
-        checks.into_iter().filter_map(judge).collect()
-    }
-}
-
-/// A number outside its band.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Disagreement {
-    /// What was compared.
-    pub quantity: &'static str,
-    /// Our number; none where no run counts.
-    pub found: Option<f64>,
-    /// The raw (painted: published) number.
-    pub expected: f64,
-    /// Largest difference allowed.
-    pub allowed: f64,
 }
 
 #[cfg(test)]
