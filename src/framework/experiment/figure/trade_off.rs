@@ -3,7 +3,7 @@
 //! A marker is the mean over the runs, its cross the 95 % interval of that mean; the name stands beside it.
 
 use super::FigureError;
-use super::canvas::{Area, Axis, Drawn, LEFT, Scale, marker, page, panel, pixel, pixels, plain_line};
+use super::canvas::{Area, Axis, Drawn, LEFT, RIGHT, Scale, marker, page, panel, pixel, pixels, plain_line};
 use super::style::{GREY, WIDTH, colour, text};
 use crate::framework::experiment::Summary;
 use plotters::element::{PathElement, Text};
@@ -106,7 +106,7 @@ impl Frame {
 /// leads to names that do not stand beside theirs.
 fn name<'b>(area: &Area<'b>, at: (i32, i32), name: &str, taken: &mut Vec<Frame>) -> Drawn<'b> {
     let wide = LETTER.0 * i32::try_from(name.chars().count()).unwrap_or(0);
-    let frame = place(at, wide, pixels(LEFT)..pixels(WIDTH), taken);
+    let frame = place(at, wide, pixels(LEFT)..pixels(WIDTH - RIGHT), taken);
     taken.push(frame);
     let middle = i32::midpoint(frame.top, frame.bottom);
     if middle != at.1 {
