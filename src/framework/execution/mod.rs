@@ -5,6 +5,8 @@ mod bounded_tests;
 mod discrepancy;
 mod error;
 mod iet;
+#[cfg(test)]
+mod model_tests;
 mod observations;
 mod owner;
 #[cfg(test)]

@@ -9,8 +9,8 @@ use crate::framework::constraint::Proposal as Pose;
 use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
 use crate::framework::robot::Chain;
 use crate::framework::whole_run::{
-    Broyden, CoverSpec, FeatureMap, ModelIet, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space, StepLimits,
-    Stepped, Targets, Trial, WholeRun,
+    Broyden, CoverSpec, FeatureMap, ModelIet, ModelSpec, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space,
+    StepLimits, Stepped, Targets, Trial, WholeRun,
 };
 use crate::framework::world::{self, CoverageSpec, World, WorldSpec};
 use std::sync::Arc;
@@ -21,6 +21,8 @@ const TOLERANCE_SHARE: f64 = 0.1;
 /// A method at work, with what it wants next.
 pub(super) struct Owner {
     method: Box<dyn WholeRun>,
+    /// The target discrepancy, and what measures it.
+    target: Option<(f64, PartialDiscrepancy)>,
     pub next: Proposal,
 }
 
@@ -31,8 +33,33 @@ impl Owner {
         for trial in log {
             method.tell(trial.clone());
         }
-        let next = method.ask();
-        Ok(Some(Self { method, next }))
+        let target = setup.spec.target_discrepancy;
+        let target = target.map(|value| (value, PartialDiscrepancy::new(&setup.goals, setup.spec.metric)));
+        let mut owner = Self { method, target, next: Proposal::Finished };
+        owner.next = owner.ask();
+        Ok(Some(owner))
+    }
+
+    /// What the method wants next; nothing once the target discrepancy is reached.
+    fn ask(&mut self) -> Proposal {
+        if self.reaches_target() { Proposal::Finished } else { self.method.ask() }
+    }
+
+    /// Whether the best trials so far, one a goal, make up a run of the target discrepancy.
+    fn reaches_target(&mut self) -> bool {
+        let Some((target, measure)) = &self.target else { return false };
+        if self.method.log().is_empty() {
+            return false;
+        }
+        let mut measure = measure.clone();
+        let mut discrepancy = f64::INFINITY;
+        for outcome in self.method.outcomes() {
+            let trial = outcome.trial.map(|index| &self.method.log()[index]);
+            let Some(observation) = trial.and_then(|trial| trial.observation.as_deref()) else { return false };
+            discrepancy = measure.of(observation);
+            measure.append(observation);
+        }
+        discrepancy <= *target
     }
 
     pub fn log(&self) -> &[Trial] {
@@ -55,7 +82,7 @@ impl Owner {
     pub fn tell(&mut self, joints: &[f64], observation: Option<&[f64]>) {
         let goal = self.goal();
         self.method.tell(Trial { joints: joints.to_vec(), observation: observation.map(<[f64]>::to_vec), goal });
-        self.next = self.method.ask();
+        self.next = self.ask();
     }
 
     /// The results of all goals, once the method has finished.
@@ -65,6 +92,7 @@ impl Owner {
         discrepancy: &mut PartialDiscrepancy,
         provenance: Provenance,
     ) -> Result<Vec<GoalResult>, ProblemError> {
+        let is_on_target = self.reaches_target();
         let outcomes = self.method.outcomes();
         let log = self.method.log();
         if log.is_empty() && !setup.constraints.is_empty() {
@@ -89,7 +117,15 @@ impl Owner {
                 evaluations,
                 failures: 0,
                 discrepancy: value,
-                stop_reason: if outcome.reached { StopReason::Tolerance } else { StopReason::OutOfReach },
+                stop_reason: if outcome.reached {
+                    StopReason::Tolerance
+                } else if is_on_target {
+                    StopReason::Target
+                } else if setup.spec.max_evaluations_per_goal.is_some_and(|most| evaluations >= most) {
+                    StopReason::MaxEvaluations
+                } else {
+                    StopReason::OutOfReach
+                },
                 joints: trial.joints.clone(),
                 observation,
                 provenance,
@@ -155,6 +191,8 @@ fn unbounded(
             Box::new(Broyden::new(spec.clone(), tolerance, space.clone(), goals))
         }
         MethodSpec::Model(spec) => {
+            let most = setup.spec.max_evaluations_per_goal.and_then(|most| u32::try_from(most).ok());
+            let spec = ModelSpec { max_tries: spec.max_tries.min(most.unwrap_or(u32::MAX)), ..spec.clone() };
             let run = ModelIet::new(spec.clone(), tolerance, space.clone(), goals, seed);
             let mut run = run.with_earlier(setup.earlier.clone());
             if spec.prior == Prior::Simulator {

@@ -40,13 +40,14 @@ pub struct ExecutionSpec {
     /// How a candidate's discrepancy is measured.
     #[serde(default)]
     pub metric: Metric,
-    /// A goal ends when the discrepancy of the whole partial observation is at most this (features' unit).
+    /// A goal ends when the discrepancy of the whole partial observation is at most this (features' unit); a method
+    /// that owns the run ends it when the whole run's is.
     #[serde(default)]
     pub target_discrepancy: Option<f64>,
     /// A goal ends when an executed observation is at most this far (Euclidean, features' unit) from the goal.
     #[serde(default)]
     pub tolerance: Option<f64>,
-    /// A goal ends after this many evaluations.
+    /// A goal ends after this many evaluations; moves that identify an unknown robot are not counted.
     #[serde(default)]
     pub max_evaluations_per_goal: Option<u64>,
     /// Total width of the seeded uniform noise added to each discrepancy (features' unit); 0 is none. The published

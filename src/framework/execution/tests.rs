@@ -246,26 +246,3 @@ fn goals_may_use_some_of_the_worlds_features() {
     assert_eq!(result.goals[0].observation.len(), 2);
     assert!((result.goals[0].observation[0] - rows[0][0]).abs() < 200.0);
 }
-
-#[test]
-fn a_run_begins_with_what_an_earlier_one_taught() {
-    let mut problem = shipped("wax-reachable").unwrap();
-    assert!(problem.select_method("model"));
-    let mut problem = problem.problem;
-    let mut first = Iet::new(&problem, 9).unwrap();
-    let mut world = first.world().unwrap();
-    simulate(&mut first, world.as_mut(), u64::MAX).unwrap();
-    assert_eq!(first.log().len() as u64, first.evaluations());
-    problem.earlier = first.log().to_vec();
-    let saved: Problem = serde_json::from_str(&serde_json::to_string(&problem).unwrap()).unwrap();
-    assert_eq!(saved, problem);
-    let (alone, second) = (first.evaluations(), run(&problem, 9).unwrap());
-    assert!(second.evaluations + 4 <= alone, "{} evaluations after {alone}", second.evaluations);
-    assert_eq!(run(&saved, 9).unwrap(), second);
-    problem.earlier[1].joints.pop();
-    let error = run(&problem, 9).unwrap_err().to_string();
-    assert_eq!(
-        error,
-        "earlier trial 1 has 2 finite joints, the problem has 3: give trials of the same robot and features, or none"
-    );
-}

@@ -96,6 +96,22 @@ impl<'a> Belief<'a> {
         variance
     }
 
+    /// Posterior mean into `self.mean`, without the variance.
+    pub fn predict_mean(&mut self, pose: &[f64]) {
+        self.process.predict_mean(pose, &mut self.mean);
+        self.add_prior(pose);
+    }
+
+    /// The variance of one feature where the mean was predicted last.
+    pub fn variance_there(&mut self) -> f64 {
+        self.process.variance_there()
+    }
+
+    /// What no variance exceeds.
+    pub fn largest_variance(&self) -> f64 {
+        self.process.amplitude_squared()
+    }
+
     fn add_prior(&mut self, pose: &[f64]) {
         if let Some(prior) = self.prior.as_deref_mut() {
             prior.predict(pose, &mut self.ahead);

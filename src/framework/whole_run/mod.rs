@@ -18,6 +18,7 @@ pub mod particle;
 pub mod process;
 pub mod refine;
 pub mod search;
+mod shortlist;
 pub mod sobol;
 pub mod space;
 pub mod steps;

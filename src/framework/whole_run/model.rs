@@ -8,8 +8,8 @@
 //! C. Rasmussen, PILCO, ICML 2011; K. Chatzilygeroudis et al., Black-DROPS, IROS 2017; A. Cully et al., "Robots that
 //! can adapt like animals", Nature 521 (2015), DOI 10.1038/nature14422.
 
-use super::belief::{Aim, Belief, distance, squared_distance};
-use super::refine::refine;
+use super::belief::{Aim, Belief, distance};
+use super::shortlist::{Starts, nearest_by_prior};
 use super::space::Space;
 use super::{FeatureMap, Outcome, Proposal, Trial, WholeRun};
 use rand::SeedableRng;
@@ -17,16 +17,8 @@ use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Uniform starts of the search through the model.
-const UNIFORM_STARTS: usize = 600;
-/// Starts near the measured poses closest to the goal.
-const LOCAL_STARTS: usize = 300;
-/// Starts that are refined.
-const REFINED: usize = 5;
-/// Evaluations of a refinement.
-const REFINE_STEPS: usize = 40;
-/// Spread of the local starts, rad.
-const LOCAL_SPREAD: f64 = 0.26;
+/// How many of the measured poses nearest to a goal are searched around.
+const LOCAL_CENTRES: usize = 3;
 
 /// Weight of the predicted variance while a goal has had fewer than [`CAUTIOUS_TRIES`] trials, and after.
 const CAUTION: f64 = 0.1;
@@ -76,13 +68,6 @@ struct Open {
     need: f64,
 }
 
-/// A pose with what the model expects there.
-struct Start {
-    pose: Vec<f64>,
-    mean: Vec<f64>,
-    variance: f64,
-}
-
 /// A run of MODEL-IET.
 pub struct ModelIet {
     spec: ModelSpec,
@@ -127,23 +112,28 @@ impl ModelIet {
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         if self.log.iter().chain(&self.earlier).all(|t| t.observation.is_none()) {
             let blind = self.log.len() >= identification + self.spec.max_tries as usize;
-            return if blind { Proposal::Finished } else { self.first_with_prior(prior.as_deref_mut(), &mut random) };
+            if blind {
+                return Proposal::Finished;
+            }
+            let prior = prior.as_deref_mut();
+            let joints = nearest_by_prior(&self.space, &self.goals[0], prior, !self.log.is_empty(), &mut random);
+            return Proposal::Execute { joints, goal: 0 };
         }
         let Some(mut belief) = Belief::fit(&self.space, logs, &self.goals, prior, self.spec.noise) else {
             return Proposal::Finished;
         };
         let open = self.open_goals(identification, &mut belief);
-        let starts = self.shared_starts(&mut belief, &mut random);
+        let mut starts = Starts::new(&self.space, &mut belief, &mut random);
         let mut chosen: Option<(f64, Vec<f64>, usize)> = None;
         for goal in &open {
-            let Some((rank, joints)) = self.sure_pose(goal, &starts, &mut belief, &mut random) else { continue };
+            let Some((rank, joints)) = self.sure_pose(goal, &mut starts, &mut belief, &mut random) else { continue };
             if chosen.as_ref().is_none_or(|c| rank < c.0) {
                 chosen = Some((rank, joints, goal.index));
             }
         }
         if chosen.is_none() {
             for goal in &open {
-                if let Some(joints) = self.hopeful_pose(goal, &starts, &mut belief, &mut random) {
+                if let Some(joints) = self.hopeful_pose(goal, &mut starts, &mut belief, &mut random) {
                     chosen = Some((0.0, joints, goal.index));
                     break;
                 }
@@ -155,45 +145,26 @@ impl ModelIet {
         Proposal::Finished
     }
 
-    /// The pose that a prior alone thinks nearest to the first goal.
-    fn first_with_prior(&self, prior: Option<&mut (dyn FeatureMap + '_)>, random: &mut ChaCha8Rng) -> Proposal {
-        let mut best = (f64::INFINITY, self.space.home());
-        if !self.log.is_empty() {
-            // The pose before was not seen: another one may be.
-            self.space.near(&self.space.home(), LOCAL_SPREAD, random, &mut best.1);
-        }
-        if let Some(prior) = prior {
-            let mut seen = vec![0.0; self.goals[0].len()];
-            let mut pose = self.space.home();
-            for start in 0..4 * UNIFORM_STARTS {
-                if start < UNIFORM_STARTS {
-                    self.space.uniform(random, &mut pose);
-                } else {
-                    let spread = LOCAL_SPREAD * 0.5_f64.powf((start / 200) as f64 - 3.0);
-                    let centre = best.1.clone();
-                    self.space.near(&centre, spread, random, &mut pose);
-                }
-                prior.predict(&pose, &mut seen);
-                let miss = distance(&seen, &self.goals[0]);
-                if miss < best.0 && self.space.allows(&pose) {
-                    best = (miss, pose.clone());
-                }
+    /// What was seen at each own trial, one row of m each: with noise what the model makes of it. None where the
+    /// observation was lost.
+    fn seen(&self, belief: &mut Belief) -> Vec<Option<Vec<f64>>> {
+        let mut denoised = |trial: &Trial| {
+            let observed = trial.observation.clone()?;
+            if self.spec.noise == 0.0 {
+                return Some(observed);
             }
-        }
-        Proposal::Execute { joints: best.1, goal: 0 }
+            belief.predict_mean(&trial.joints);
+            Some(belief.mean.clone())
+        };
+        self.log.iter().map(&mut denoised).collect()
     }
 
-    /// B: the smallest distance of an own trial to the goal.
-    fn best(&self, goal: usize, belief: &mut Belief) -> (Option<usize>, f64) {
+    /// B: the smallest distance of what was `seen` to the goal, and at which trial.
+    fn best(&self, goal: usize, seen: &[Option<Vec<f64>>]) -> (Option<usize>, f64) {
         let mut best = (None, f64::INFINITY);
-        for (index, trial) in self.log.iter().enumerate() {
-            let Some(observed) = &trial.observation else { continue };
-            let miss = if self.spec.noise > 0.0 {
-                belief.predict(&trial.joints);
-                distance(&belief.mean, &self.goals[goal])
-            } else {
-                distance(observed, &self.goals[goal])
-            };
+        for (index, observed) in seen.iter().enumerate() {
+            let Some(observed) = observed else { continue };
+            let miss = distance(observed, &self.goals[goal]);
             if miss < best.1 {
                 best = (Some(index), miss);
             }
@@ -203,10 +174,11 @@ impl ModelIet {
 
     /// The goals still worth a trial: not reached, tries left.
     fn open_goals(&self, identification: usize, belief: &mut Belief) -> Vec<Open> {
+        let seen = self.seen(belief);
         let mut open = Vec::with_capacity(self.goals.len());
         for index in 0..self.goals.len() {
             let tries = self.log.iter().skip(identification).filter(|t| t.goal == index).fold(0_u32, |n, _| n + 1);
-            let (_, best) = self.best(index, belief);
+            let (_, best) = self.best(index, &seen);
             if best + self.spec.noise.min(0.1 * self.tolerance) > self.tolerance && tries < self.spec.max_tries {
                 let need = (0.25 * self.tolerance).max(0.02 * best);
                 open.push(Open { index, tries, best, need });
@@ -215,30 +187,18 @@ impl ModelIet {
         open
     }
 
-    /// Uniform poses with what the model expects there: shared by all goals.
-    fn shared_starts(&self, belief: &mut Belief, random: &mut ChaCha8Rng) -> Vec<Start> {
-        let mut pose = self.space.home();
-        (0..UNIFORM_STARTS)
-            .map(|_| {
-                self.space.uniform(random, &mut pose);
-                let variance = belief.predict(&pose);
-                Start { pose: pose.clone(), mean: belief.mean.clone(), variance }
-            })
-            .collect()
-    }
-
     /// The pose expected nearest to the goal among those the model is sure of, if it improves enough; with the squared
     /// distance expected.
     fn sure_pose(
         &self,
         goal: &Open,
-        shared: &[Start],
+        starts: &mut Starts,
         belief: &mut Belief,
         random: &mut ChaCha8Rng,
     ) -> Option<(f64, Vec<f64>)> {
         let target = self.goals[goal.index].as_slice();
         let sure = Aim { goal: target, caution: if goal.tries < CAUTIOUS_TRIES { CAUTION } else { LATE_CAUTION } };
-        let poses = self.search(shared, sure, belief, random);
+        let poses = self.search(starts, sure, belief, random);
         let nearest = poses.into_iter().map(|pose| (belief.score(&pose, sure), pose));
         let (_, pose) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let variance = belief.predict(&pose);
@@ -253,14 +213,14 @@ impl ModelIet {
     fn hopeful_pose(
         &self,
         goal: &Open,
-        shared: &[Start],
+        starts: &mut Starts,
         belief: &mut Belief,
         random: &mut ChaCha8Rng,
     ) -> Option<Vec<f64>> {
         let target = self.goals[goal.index].as_slice();
         let hopeful = Aim { goal: target, caution: -0.25 };
         let mut hope = (f64::INFINITY, None);
-        for pose in self.search(shared, hopeful, belief, random) {
+        for pose in self.search(starts, hopeful, belief, random) {
             let variance = belief.predict(&pose);
             let value = distance(&belief.mean, target) - 0.5 * (target.len() as f64 * variance).sqrt();
             if value < hope.0 {
@@ -270,39 +230,15 @@ impl ModelIet {
         hope.1.filter(|_| hope.0 < goal.best - goal.need)
     }
 
-    /// Poses around the measured ones nearest to the target.
-    fn local_starts(&self, target: &[f64], random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
-        let mut seen: Vec<(f64, &[f64])> = self
-            .earlier
-            .iter()
-            .chain(&self.log)
-            .filter_map(|t| Some((distance(t.observation.as_deref()?, target), t.joints.as_slice())))
-            .collect();
-        seen.sort_by(|a, b| a.0.total_cmp(&b.0));
-        seen.truncate(3);
-        let mut starts = vec![self.space.home(); LOCAL_STARTS];
-        for (pose, (_, centre)) in starts.iter_mut().zip(seen.iter().cycle()) {
-            self.space.near(centre, LOCAL_SPREAD, random, pose);
-        }
-        starts
-    }
-
-    /// The best starts, refined; only allowed poses.
-    fn search(&self, shared: &[Start], aim: Aim, belief: &mut Belief, random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
-        let local = self.local_starts(aim.goal, random);
-        let weight = aim.caution * aim.goal.len() as f64;
-        let known = shared.iter().map(|s| squared_distance(&s.mean, aim.goal) + weight * s.variance);
-        let mut scored: Vec<(f64, &[f64])> = known.zip(shared.iter().map(|s| s.pose.as_slice())).collect();
-        scored.extend(local.iter().map(|pose| (belief.score(pose, aim), pose.as_slice())));
-        scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut found = Vec::with_capacity(REFINED);
-        for &(_, start) in scored.iter().filter(|s| self.space.allows(s.1)).take(REFINED) {
-            let mut pose = start.to_vec();
-            refine(&self.space, &mut pose, REFINE_STEPS, &mut |q, local| belief.score_with_slopes(q, aim, local));
-            self.space.retreat(start, &mut pose);
-            found.push(pose);
-        }
-        found
+    /// Refined poses, some found around the measured ones nearest to the goal.
+    fn search(&self, starts: &mut Starts, aim: Aim, belief: &mut Belief, random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
+        let trials = self.earlier.iter().chain(&self.log);
+        let measured = |t: &'_ Trial| Some(distance(t.observation.as_deref()?, aim.goal));
+        let mut nearest: Vec<(f64, &[f64])> =
+            trials.filter_map(|t| Some((measured(t)?, t.joints.as_slice()))).collect();
+        nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let centres: Vec<&[f64]> = nearest.iter().take(LOCAL_CENTRES).map(|near| near.1).collect();
+        starts.search(&self.space, aim, &centres, belief, random)
     }
 }
 
@@ -335,9 +271,10 @@ impl WholeRun for ModelIet {
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         let map = prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap);
         let outcomes = Belief::fit(&self.space, logs, &self.goals, map, self.spec.noise).map(|mut belief| {
+            let seen = self.seen(&mut belief);
             (0..self.goals.len())
                 .map(|goal| {
-                    let (trial, miss) = self.best(goal, &mut belief);
+                    let (trial, miss) = self.best(goal, &seen);
                     Outcome { trial, distance: miss, reached: miss <= self.tolerance }
                 })
                 .collect()

@@ -134,8 +134,18 @@ impl Process {
 
     /// Posterior mean of the residual at `pose` into `mean` (m values); returns the variance of one output.
     pub fn predict(&mut self, pose: &[f64], mean: &mut [f64]) -> f64 {
+        self.predict_mean(pose, mean);
+        self.variance_there()
+    }
+
+    /// As [`Process::predict`], without the variance: n m operations instead of n^2.
+    pub fn predict_mean(&mut self, pose: &[f64], mean: &mut [f64]) {
         self.poses.with(self.kernel, pose, &mut self.scratch, &mut self.k);
         self.mean(mean);
+    }
+
+    /// The variance of one output at the pose asked for last.
+    pub fn variance_there(&mut self) -> f64 {
         self.whiten()
     }
 
