@@ -1,11 +1,12 @@
 //! `cgda run`: a problem, from a preset or from demonstrations, searched for R seeds over all cores.
 
+mod dry_run;
 mod figures;
 mod output;
 mod problem;
 mod seeded;
 
-use crate::framework::execution::{Iet, RunResult, simulate};
+use crate::framework::execution::{Iet, ROBOT_TRIAL_S, RunResult, simulate};
 use anyhow::Context as _;
 use figures::Figures;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -47,6 +48,12 @@ pub struct RunArguments {
     /// Print one JSON object on stdout.
     #[arg(long)]
     json: bool,
+    /// Only say what the runs would cost.
+    #[arg(long)]
+    dry_run: bool,
+    /// How long a trial on a robot takes, for --dry-run.
+    #[arg(long, value_name = "SECONDS", default_value_t = ROBOT_TRIAL_S)]
+    robot_trial_s: f64,
 }
 
 /// Runs the problem and prints its results.
@@ -61,6 +68,11 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     let seeded = Seeded::new(named, after, arguments.random_start)?;
     let last = u64::from(arguments.repetitions - 1);
     arguments.seed.checked_add(last).context("the last repetition's seed is beyond 64 bits: give a smaller --seed")?;
+    if arguments.dry_run {
+        let RunArguments { seed, repetitions, robot_trial_s, json, .. } = *arguments;
+        let text = dry_run::report(&seeded, seed, repetitions, robot_trial_s, json)?;
+        return Ok(std::io::stdout().lock().write_all(text.as_bytes())?);
+    }
     let seeds: Vec<u64> = (0..=last).map(|offset| arguments.seed + offset).collect();
     let runs = search(&seeded, &seeds, arguments.threads)?;
     if let Some(directory) = &arguments.out {

@@ -32,8 +32,9 @@ impl JobService for Service {
         &self,
         request: Request<proto::ValidateJobRequest>,
     ) -> Result<Response<proto::JobValidation>, Status> {
-        let work = work::work(request.into_inner().work).map_err(status)?;
-        let validation = self.0.validate_job(work).await.map_err(status)?;
+        let proto::ValidateJobRequest { work, robot_trial_s } = request.into_inner();
+        let work = work::work(work).map_err(status)?;
+        let validation = self.0.validate_job(work, robot_trial_s).await.map_err(status)?;
         Ok(Response::new(validation.into()))
     }
 

@@ -26,10 +26,23 @@ pub async fn create(
 }
 
 /// Dry run: what is wrong with a job and what it would cost.
-#[utoipa::path(post, path = "/jobs:validate", operation_id = "validateJob", tag = "jobs", request_body = CreateJob,
-    responses((status = 200, description = "Errors, or an estimate.", body = Validation)))]
-pub async fn validate(State(app): State<App>, Json(request): Json<CreateJob>) -> Result<Json<Validation>, Problem> {
-    Ok(Json(app.validate_job(request).await?))
+#[utoipa::path(post, path = "/jobs:validate", operation_id = "validateJob", tag = "jobs", params(DryRunParameters),
+    request_body = CreateJob, responses((status = 200, description = "Errors, or an estimate.", body = Validation)))]
+pub async fn validate(
+    State(app): State<App>,
+    Query(wanted): Query<DryRunParameters>,
+    Json(request): Json<CreateJob>,
+) -> Result<Json<Validation>, Problem> {
+    Ok(Json(app.validate_job(request, wanted.robot_trial_s).await?))
+}
+
+/// What a dry run is told beside the job.
+#[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[serde(deny_unknown_fields)]
+pub struct DryRunParameters {
+    /// How long a trial on a robot takes, seconds; 15 when absent.
+    robot_trial_s: Option<f64>,
 }
 
 /// Which jobs.

@@ -229,3 +229,33 @@ async fn what_is_refused_over_http_is_refused_over_grpc_with_the_same_code() {
         problem.json["errors"].as_array().unwrap().iter().map(|error| error["pointer"].as_str().unwrap()).collect();
     assert_eq!(places, pointers);
 }
+
+#[tokio::test]
+async fn the_method_auto_stands_for_and_the_cost_in_words_are_told_alike() {
+    let server = Server::start();
+    let (http, mut grpc) = (Http::new(&server), Grpc::new(&server).await);
+    let made = prepare(&http).await;
+    let mut request = job(&made, 21, 1);
+    request["execution"]["method"] = json!({"name": "auto", "simulator": true});
+    let dry = http.post("/jobs:validate?robot_trial_s=30", &request).await.expect(200);
+    assert_eq!(dry.text("/chosen/method"), "model", "{}", dry.text);
+    assert!(dry.text("/estimate/text").contains("at 30 s each"), "{}", dry.text);
+    let mut work = work(&made, 21);
+    let Some(proto::work::Kind::Execution(execution)) = &mut work.kind else { panic!("an execution is asked for") };
+    let method = proto::execution_spec::Method::MethodJson(request["execution"]["method"].to_string());
+    execution.execution = Some(proto::ExecutionSpec { method: Some(method), ..Default::default() });
+    let validate = proto::ValidateJobRequest { work: Some(work), robot_trial_s: Some(30.0) };
+    let told = grpc.jobs.validate_job(validate.clone()).await.unwrap().into_inner();
+    assert_eq!(told.chosen.unwrap().reason, dry.text("/chosen/reason"));
+    assert!(told.estimate.unwrap().text.contains("at 30 s each"));
+    let refused = proto::ValidateJobRequest { robot_trial_s: Some(0.0), ..validate };
+    assert_eq!(grpc.jobs.validate_job(refused).await.unwrap().into_inner().errors[0].pointer, "/robot_trial_s");
+
+    let id = http.post("/jobs", &request).await.expect(202).text("/id").to_owned();
+    let shown = finished(&http, &id).await;
+    assert_eq!(shown.text("/request/execution/method/name"), "model");
+    let over_grpc = grpc.jobs.get_job(proto::GetJobRequest { id }).await.unwrap().into_inner();
+    let Some(proto::work::Kind::Execution(execution)) = over_grpc.work.unwrap().kind else { panic!("an execution") };
+    let chosen = execution.execution.unwrap().chosen.unwrap();
+    assert_eq!(chosen.reason, shown.text("/request/execution/chosen/reason"));
+}

@@ -3,11 +3,13 @@
 
 use super::earlier::setting;
 use super::estimate::estimate;
-use super::{CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work};
+use super::{
+    CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work,
+};
 use crate::app::id::ExperimentId;
 use crate::app::ports::{SEED_BOUND, StoreError, Usage};
 use crate::app::{App, AppError, ErrorKind, FieldError, chain_text, check_name, compute};
-use crate::framework::execution::{Iet, Problem};
+use crate::framework::execution::{Chosen, Iet, Problem, ROBOT_TRIAL_S};
 use crate::framework::experiment::Plan;
 use crate::framework::generalization::Goals;
 use std::collections::BTreeSet;
@@ -15,6 +17,8 @@ use std::sync::Arc;
 
 /// Most repetitions of one job.
 const MAX_REPETITIONS: u32 = 1000;
+/// Longest trial on a robot: a day.
+const MAX_TRIAL_S: f64 = 86_400.0;
 /// Most demonstrations of one action.
 const MAX_DEMONSTRATIONS: usize = 1000;
 
@@ -55,25 +59,40 @@ impl Resolved {
 }
 
 impl App {
-    /// Checks a job as [`App::create_job`] would, creates nothing and estimates its cost.
+    /// Checks a job as [`App::create_job`] would, creates nothing and estimates its cost; a trial on a robot is taken to
+    /// last `robot_trial_s` seconds (15 when absent).
     ///
     /// # Errors
     /// Only when the service is at fault: what is wrong with the request is in the answer.
-    pub async fn validate_job(&self, request: CreateJob) -> Result<Validation, AppError> {
-        let estimate = match self.resolve(request).await {
-            Ok(resolved) => {
-                let clock = Arc::clone(&self.ports.clock);
-                compute(move || estimate(&resolved, clock.as_ref())).await?
+    pub async fn validate_job(&self, request: CreateJob, robot_trial_s: Option<f64>) -> Result<Validation, AppError> {
+        match self.preview(request, robot_trial_s.unwrap_or(ROBOT_TRIAL_S)).await {
+            Ok((estimate, chosen)) => {
+                Ok(Validation { valid: true, errors: Vec::new(), estimate: Some(estimate), chosen })
             }
-            Err(error) => Err(error),
-        };
-        match estimate {
-            Ok(estimate) => Ok(Validation { valid: true, errors: Vec::new(), estimate: Some(estimate) }),
             Err(error) if error.kind == ErrorKind::Invalid => {
-                Ok(Validation { valid: false, errors: error.details, estimate: None })
+                Ok(Validation { valid: false, errors: error.details, estimate: None, chosen: None })
             }
             Err(error) => Err(error),
         }
+    }
+
+    async fn preview(
+        &self,
+        request: CreateJob,
+        robot_trial_s: f64,
+    ) -> Result<(CostEstimate, Option<Chosen>), AppError> {
+        if !(robot_trial_s > 0.0 && robot_trial_s <= MAX_TRIAL_S) {
+            let detail = format!("robot_trial_s is {robot_trial_s}: give a time above 0 and up to {MAX_TRIAL_S} s");
+            return Err(AppError::field("/robot_trial_s", "out_of_range", detail));
+        }
+        let resolved = self.resolve(request).await?;
+        let chosen = match &resolved.work {
+            Work::Execution(work) => work.problem.execution.chosen.clone(),
+            Work::Generalization(_) | Work::Experiment { .. } => None,
+        };
+        let clock = Arc::clone(&self.ports.clock);
+        let estimate = compute(move || estimate(&resolved, robot_trial_s, clock.as_ref())).await??;
+        Ok((estimate, chosen))
     }
 
     pub(super) async fn resolve(&self, request: CreateJob) -> Result<Resolved, AppError> {
@@ -153,6 +172,8 @@ impl App {
             execution: request.execution.clone(),
             earlier: Vec::new(),
         };
+        problem.choose();
+        request.execution = problem.execution.clone();
         let seed = request.seed.unwrap_or_else(|| self.ports.ids.seed());
         let setting = setting(&robot, &problem, seed, request.repetitions);
         problem.earlier = self.earlier_trials(&mut request, setting.as_deref()).await?;

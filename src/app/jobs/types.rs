@@ -4,7 +4,7 @@ use crate::app::experiments::ExperimentRequest;
 use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::runs::RunGoal;
 use crate::app::{FieldError, Timestamp};
-use crate::framework::execution::ExecutionSpec;
+use crate::framework::execution::{Chosen, ExecutionSpec};
 use crate::framework::generalization::Weighting;
 use crate::framework::job::State;
 use crate::framework::optimizer::StopReason;
@@ -349,6 +349,8 @@ pub struct Validation {
     pub errors: Vec<FieldError>,
     /// What it would cost, if it is valid.
     pub estimate: Option<CostEstimate>,
+    /// Which method `auto` stands for, and why, if the job asks for it.
+    pub chosen: Option<Chosen>,
 }
 
 /// What a job will cost, roughly.
@@ -358,8 +360,10 @@ pub struct CostEstimate {
     pub evaluations: u64,
     /// Time on this machine in simulation, seconds.
     pub simulated_s: f64,
-    /// Time if each evaluation were a trial of 15 s on a robot, seconds.
+    /// Time if each evaluation were a trial on a robot, seconds.
     pub robot_s: f64,
+    /// The cost in words, for example `about 16 evaluations; at 15 s each, 4 minutes of robot time`.
+    pub text: String,
     /// How the estimate was made.
     pub basis: String,
 }

@@ -2,7 +2,7 @@
 
 use super::figures::Figures;
 use super::seeded::Seeded;
-use crate::framework::execution::RunResult;
+use crate::framework::execution::{Chosen, RunResult};
 use crate::framework::preset::Preset;
 use crate::framework::robot::{Chain, RobotModel};
 use crate::framework::trajectory::{PlanSpec, export, plan};
@@ -16,6 +16,9 @@ use std::path::Path;
 struct Report<'a> {
     preset: &'a str,
     method: &'static str,
+    /// Why this method, where `auto` stood for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    chosen: Option<&'a Chosen>,
     seed: u64,
     repetitions: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -49,6 +52,7 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[RunResult], figures: Figu
     let report = Report {
         preset: &named.name,
         method: named.problem.execution.method.name(),
+        chosen: named.problem.execution.chosen.as_ref(),
         seed,
         repetitions: runs.len(),
         after: seeded.after.as_ref().map(|before| before.name.as_str()),
@@ -77,10 +81,16 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[RunResult], figures: Figu
     Ok(format!("{}\n", serde_json::to_string(&report)?))
 }
 
+/// A line that says which method was chosen and why; empty where none had to be.
+pub(super) fn method(named: &Preset) -> String {
+    let chosen = named.problem.execution.chosen.as_ref();
+    chosen.map_or_else(String::new, |Chosen { method, reason }| format!("method {method}: {reason}\n"))
+}
+
 /// The goals of the best run, and what all runs amount to.
 pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> String {
     let unit = named.problem.goals.features().first().map_or("", |f| f.unit.as_str());
-    let mut text = format!("{}: {}\n", named.name, named.description);
+    let mut text = format!("{}: {}\n{}", named.name, named.description, method(named));
     let Some(best) = runs.iter().min_by(|a, b| a.discrepancy.total_cmp(&b.discrepancy)) else { return text };
     if runs.len() > 1 {
         let _ = writeln!(text, "best of {} runs: seed {}", runs.len(), best.seed);

@@ -102,13 +102,20 @@ fn unlike_the_description(problem: &mut Problem, arguments: &ProblemArguments) {
         reality.joint_noise_deg = 0.1;
         reality.sensor_noise = per_mm.map_or(0.0, |mm| 2.0 * mm);
     }
+    // sensor, and what 0.1 degrees in a few joints do half a metre away
+    let noise = per_mm.map_or(0.0, |mm| 2.5 * mm);
     if let MethodSpec::Model(model) = &mut problem.execution.method {
         if arguments.prior.is_some() {
             model.prior = if simulator { Prior::Simulator } else { Prior::None };
         }
         if arguments.noise {
-            // sensor, and what 0.1 degrees in a few joints do half a metre away
-            model.noise = per_mm.map_or(0.0, |mm| 2.5 * mm);
+            model.noise = noise;
+        }
+    }
+    if let MethodSpec::Auto(wishes) = &mut problem.execution.method {
+        wishes.simulator = arguments.prior.map_or(wishes.simulator, |_| simulator);
+        if arguments.noise {
+            wishes.noise = noise;
         }
     }
     problem.execution.reality = Some(reality);
@@ -151,6 +158,7 @@ fn adjusted(mut named: Preset, arguments: &ProblemArguments) -> anyhow::Result<P
     if arguments.prior.is_some() || arguments.noise || arguments.distort {
         unlike_the_description(&mut named.problem, arguments);
     }
+    named.problem.choose();
     Ok(named)
 }
 

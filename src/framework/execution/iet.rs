@@ -138,6 +138,12 @@ impl Iet {
         &self.setup.chain
     }
 
+    /// Whether the method owns the run: it names one pose at a time and may think long about each.
+    #[must_use]
+    pub fn owns_the_run(&self) -> bool {
+        self.owner.is_some()
+    }
+
     /// The seed of this run.
     #[must_use]
     pub fn seed(&self) -> u64 {

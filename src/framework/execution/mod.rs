@@ -2,8 +2,10 @@
 
 #[cfg(test)]
 mod bounded_tests;
+mod choice;
 mod discrepancy;
 mod error;
+mod estimate;
 mod iet;
 #[cfg(test)]
 mod model_tests;
@@ -19,8 +21,10 @@ mod state;
 #[cfg(test)]
 mod tests;
 
+pub use choice::Chosen;
 pub use discrepancy::PartialDiscrepancy;
 pub use error::ProblemError;
+pub use estimate::{Preview, ROBOT_TRIAL_S, in_words};
 pub use iet::Iet;
 pub use observations::{Observations, Seen};
 pub use result::{GoalResult, Progress, RunResult, TracePoint};

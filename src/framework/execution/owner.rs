@@ -178,7 +178,8 @@ fn unbounded(
 ) -> Result<Option<Box<dyn WholeRun>>, ProblemError> {
     let Targets { goals, tolerance } = targets;
     Ok(Some(match &setup.spec.method {
-        MethodSpec::Sst(_)
+        MethodSpec::Auto(_)
+        | MethodSpec::Sst(_)
         | MethodSpec::Pso(_)
         | MethodSpec::FiPso(_)
         | MethodSpec::AffgPso(_)

@@ -1,5 +1,6 @@
 //! A problem made ready: robot, goals and world proven to fit together.
 
+use super::choice::choose;
 use super::error::ProblemError;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
@@ -30,13 +31,17 @@ pub(super) struct Setup {
 
 impl Setup {
     pub(super) fn new(problem: &Problem) -> Result<Self, ProblemError> {
-        check_spec(&problem.execution)?;
+        let mut spec = problem.execution.clone();
+        if let MethodSpec::Auto(wishes) = &spec.method {
+            spec.method = choose(wishes, &spec, &problem.world).0;
+        }
+        check_spec(&spec)?;
         let model = RobotModel::from_urdf(&problem.urdf)?;
         let chain = Chain::new(&model, &problem.robot)?;
-        let constraints = Constraints::new(&problem.execution.constraints, &model, &problem.robot, &chain)?;
-        if problem.execution.method.owns_the_run() && constraints.needs_a_population() {
+        let constraints = Constraints::new(&spec.constraints, &model, &problem.robot, &chain)?;
+        if spec.method.owns_the_run() && constraints.needs_a_population() {
             let expected = "constraints without population_velocity, for it breeds no population: take joint_step";
-            return Err(ProblemError::Method { method: problem.execution.method.name(), expected });
+            return Err(ProblemError::Method { method: spec.method.name(), expected });
         }
         world::build(&problem.world, &chain)?;
         let shown = world::features(&problem.world)?;
@@ -59,7 +64,7 @@ impl Setup {
         Ok(Self {
             goals: problem.goals.clone(),
             chain,
-            spec: problem.execution.clone(),
+            spec,
             world: problem.world.clone(),
             select,
             world_features: shown.len(),
@@ -167,7 +172,8 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
     let unexecuted_may_win = match &spec.method {
         MethodSpec::FiPso(method) => method.unexecuted_may_win,
         MethodSpec::AffgPso(method) => method.unexecuted_may_win,
-        MethodSpec::Sst(_)
+        MethodSpec::Auto(_)
+        | MethodSpec::Sst(_)
         | MethodSpec::Pso(_)
         | MethodSpec::CmaEs(_)
         | MethodSpec::Broyden(_)

@@ -1,5 +1,6 @@
 //! A problem: all an execution needs, self-contained and serialisable, so that a job can be rerun from it alone.
 
+use super::choice::Chosen;
 use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::generalization::Goals;
 use crate::framework::optimizer::{MethodChoice, MethodSpec, method_or_name};
@@ -37,6 +38,9 @@ pub struct ExecutionSpec {
     #[serde(deserialize_with = "method_or_name")]
     #[schema(value_type = MethodChoice)]
     pub method: MethodSpec,
+    /// Why this method, where `auto` stood for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chosen: Option<Chosen>,
     /// How a candidate's discrepancy is measured.
     #[serde(default)]
     pub metric: Metric,
@@ -78,6 +82,7 @@ impl ExecutionSpec {
     pub fn new(method: MethodSpec) -> Self {
         Self {
             method,
+            chosen: None,
             metric: Metric::default(),
             target_discrepancy: None,
             tolerance: None,

@@ -28,7 +28,7 @@ pub use choice::{MethodChoice, method_or_name};
 pub use cma_es::{CmaEs, CmaEsSpec, CmaEsState};
 pub(in crate::framework) use hall::Hall;
 pub use rng::RandomStream;
-pub use spec::{MethodSpec, ParticleSpec, SstSpec};
+pub use spec::{AutoSpec, MethodSpec, ParticleSpec, SstSpec};
 pub use sst::{Sst, SstState};
 pub use swarm::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, SwarmState, VelocityClamp};
 
@@ -267,6 +267,9 @@ pub enum OptimizerError {
         /// Method name.
         method: &'static str,
     },
+    /// A method that stands for another.
+    #[error("auto stands for a method: choose one for the problem first")]
+    Undecided,
     /// A state saved by another version.
     #[error("the saved {method} state has version {found}, this program reads {expected}: run the job again")]
     Version {
@@ -310,6 +313,7 @@ pub fn start(
     stream: u64,
 ) -> Result<Box<dyn Optimizer>, OptimizerError> {
     match method {
+        MethodSpec::Auto(_) => Err(OptimizerError::Undecided),
         MethodSpec::Sst(spec) => Ok(Box::new(Sst::new(spec, space, seed, stream)?)),
         MethodSpec::Pso(spec) => pso::start(spec, space, seed, stream),
         MethodSpec::FiPso(spec) => fi_pso::start(spec, space, seed, stream),

@@ -12,6 +12,8 @@ use utoipa::ToSchema;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "name", rename_all = "snake_case")]
 pub enum MethodSpec {
+    /// Whichever of the others suits the problem: it is put in this one's place, and why is said.
+    Auto(AutoSpec),
     /// Steady-state tournament.
     Sst(SstSpec),
     /// Particle swarm.
@@ -30,6 +32,18 @@ pub enum MethodSpec {
     Particle(ParticleSpec),
     /// SEARCH-IET: a coverage world with nothing known.
     Search(CoverSpec),
+}
+
+/// What a method is chosen by, beyond the problem itself.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct AutoSpec {
+    /// The robot and world as described may be used as a simulator, which need not be right.
+    pub simulator: bool,
+    /// Evaluations cost nothing, as in simulation: the best result counts instead of few evaluations.
+    pub free_evaluations: bool,
+    /// Standard deviation of one observed feature, features' unit, for a method that can be told.
+    pub noise: f64,
 }
 
 /// Parameters of PARTICLE-IET.
@@ -56,13 +70,14 @@ impl Default for ParticleSpec {
 
 impl MethodSpec {
     /// Names of all methods.
-    pub const NAMES: [&'static str; 9] =
-        ["sst", "pso", "fi_pso", "affg_pso", "cma_es", "broyden", "model", "particle", "search"];
+    pub const NAMES: [&'static str; 10] =
+        ["auto", "sst", "pso", "fi_pso", "affg_pso", "cma_es", "broyden", "model", "particle", "search"];
 
     /// The method of that name with its defaults.
     #[must_use]
     pub fn by_name(name: &str) -> Option<Self> {
         Some(match name {
+            "auto" => Self::Auto(AutoSpec::default()),
             "sst" => Self::Sst(SstSpec::default()),
             "pso" => Self::Pso(PsoSpec::default()),
             "fi_pso" => Self::FiPso(FiPsoSpec::default()),
@@ -98,6 +113,7 @@ impl MethodSpec {
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
+            Self::Auto(_) => "auto",
             Self::Sst(_) => "sst",
             Self::Pso(_) => "pso",
             Self::FiPso(_) => "fi_pso",

@@ -130,7 +130,12 @@ impl From<JobFailure> for proto::JobFailure {
 
 impl From<Validation> for proto::JobValidation {
     fn from(validation: Validation) -> Self {
-        Self { valid: validation.valid, errors: all(validation.errors), estimate: validation.estimate.map(Into::into) }
+        Self {
+            valid: validation.valid,
+            errors: all(validation.errors),
+            estimate: validation.estimate.map(Into::into),
+            chosen: validation.chosen.map(Into::into),
+        }
     }
 }
 
@@ -141,6 +146,7 @@ impl From<CostEstimate> for proto::CostEstimate {
             simulated_s: estimate.simulated_s,
             robot_s: estimate.robot_s,
             basis: estimate.basis,
+            text: estimate.text,
         }
     }
 }

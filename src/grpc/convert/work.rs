@@ -4,7 +4,7 @@ use super::{finite, finite_or_none, list, metric, reference, references, require
 use crate::app::AppError;
 use crate::app::jobs::{CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
 use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
-use crate::framework::execution::ExecutionSpec;
+use crate::framework::execution::{Chosen, ExecutionSpec};
 use crate::framework::generalization::Weighting;
 use crate::framework::optimizer::{BoundsRule, MethodSpec, SstSpec};
 use crate::grpc::proto;
@@ -71,6 +71,7 @@ fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
     };
     Ok(ExecutionSpec {
         method,
+        chosen: spec.chosen.map(|chosen| Chosen { method: chosen.method, reason: chosen.reason }),
         constraints: constrained.constraints,
         handling: constrained.handling,
         on_infeasible: constrained.on_infeasible,
@@ -182,6 +183,12 @@ impl From<EarlierRun> for proto::EarlierRun {
     }
 }
 
+impl From<Chosen> for proto::ChosenMethod {
+    fn from(chosen: Chosen) -> Self {
+        Self { method: chosen.method, reason: chosen.reason }
+    }
+}
+
 impl From<ExecutionSpec> for proto::ExecutionSpec {
     fn from(spec: ExecutionSpec) -> Self {
         let method = match spec.method {
@@ -200,6 +207,7 @@ impl From<ExecutionSpec> for proto::ExecutionSpec {
             Constrained { constraints: spec.constraints, handling: spec.handling, on_infeasible: spec.on_infeasible };
         Self {
             method: Some(method),
+            chosen: spec.chosen.map(Into::into),
             constraints_json: if constrained == Constrained::default() { String::new() } else { json(&constrained) },
             metric: proto::Metric::from(spec.metric) as i32,
             target_discrepancy: spec.target_discrepancy,
@@ -237,7 +245,7 @@ mod tests {
                 "handling": {"strategy": "penalty", "penalty": {"kind": "dynamic", "weight": 2.5}},
                 "on_infeasible": "append"}}),
             serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
-                "world": format!("wld_{id}"), "seed": 7, "execution": {"method": "model",
+                "world": format!("wld_{id}"), "seed": 7, "execution": {"method": "model", "chosen": {"method": "model", "reason": "why"},
                 "reality": {"link_share": 0.05, "base_shift_m": 0.02}}, "earlier_runs": [{"run": format!("run_{id}"),
                 "job": format!("job_{id}"), "trials": 12}]}),
         ] {

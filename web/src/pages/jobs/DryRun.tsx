@@ -43,7 +43,9 @@ export function DryRun({ request }: { request: CreateJob | null }) {
                       { name: "If each were a trial on a robot", value: formatDuration(estimate.robot_s) },
                     ]}
                   />
-                  <p className="small muted">{estimate.basis}</p>
+                  <p className="small muted">
+                    {estimate.text} ({estimate.basis})
+                  </p>
                 </>
               )}
             </div>

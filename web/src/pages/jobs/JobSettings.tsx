@@ -51,6 +51,7 @@ function requestFacts(request: CreateJob): Fact[] {
     ["Robot", <RobotLink key="robot" id={request.robot} />],
     ["World", <WorldName key="world" id={request.world} />],
     ["Method", methodName(execution.method)],
+    ["Why this method", execution.chosen?.reason],
     ["Metric", humanize(execution.metric)],
     ["Tolerance", execution.tolerance],
     ["Target discrepancy", execution.target_discrepancy],
