@@ -44,8 +44,7 @@ pub struct ExecutionSpec {
     /// How a candidate's discrepancy is measured.
     #[serde(default)]
     pub metric: Metric,
-    /// A goal ends when the discrepancy of the whole partial observation is at most this (features' unit); a method
-    /// that owns the run ends it when the whole run's is.
+    /// A goal, or the run of a method that owns it, ends at this discrepancy of all observed so far (features' unit).
     #[serde(default)]
     pub target_discrepancy: Option<f64>,
     /// A goal ends when an executed observation is at most this far (Euclidean, features' unit) from the goal.
