@@ -14,6 +14,7 @@ use crate::evaluate::{Pace, Simulation};
 use crate::framework::execution::{GoalResult, Problem, ProblemError, Progress};
 use crate::framework::job::{Event, State};
 use crate::framework::whole_run::Trial;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use tokio::time::Instant;
 
@@ -243,7 +244,10 @@ impl<'a> Attempt<'a> {
     }
 
     fn progress(&self, progress: &Progress) -> JobProgress {
-        let done = progress.goal_index as f64 / progress.goals.max(1) as f64;
+        // A method that owns the run goes back and forth between goals: those it has tried tell how far it is.
+        let tried = self.trials.iter().map(|trial| trial.goal).collect::<BTreeSet<u32>>().len();
+        let goals_done = if progress.finished || tried == 0 { progress.goal_index } else { tried - 1 };
+        let done = goals_done as f64 / progress.goals.max(1) as f64;
         let repetitions = self.work.repetitions;
         JobProgress {
             fraction: (f64::from(self.saved.repetition) + done) / f64::from(repetitions),

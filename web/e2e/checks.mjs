@@ -11,7 +11,7 @@ const pagesOf = (data) => [
   { path: "/jobs", text: "loop" },
   { path: "/jobs/new", text: "Before you start" },
   { path: `/jobs/${data.loopJob.id}`, text: "Succeeded" },
-  { path: `/jobs/${data.fewJob.id}`, text: "distance from its goal" },
+  { path: `/jobs/${data.fewJob.id}`, text: "was made for goal" },
   { path: `/runs/${data.loopJob.result.runs[0]}`, text: "goals reached" },
   { path: `/runs/${data.paintJob.result.runs[0]}`, text: "cells painted" },
   { path: "/demonstrations", text: "loop-1" },
@@ -140,10 +140,10 @@ async function demonstrationsToJob({ browser, server }) {
   await page.getByRole("link", { name: "Open the action" }).click();
   await page.getByRole("link", { name: "Execute on a robot" }).click();
 
-  await page.getByLabel("Robot").selectOption({ index: 1 });
+  await page.getByLabel("Robot", { exact: true }).selectOption({ index: 1 });
   await page.getByLabel("World").selectOption({ label: "wall of 4 x 4 (painted)" });
-  assert.equal(await page.getByLabel("Method").inputValue(), "particle", "a wall suggests its method");
-  await page.getByLabel("Method").selectOption("sst");
+  assert.equal(await page.getByLabel("Method", { exact: true }).inputValue(), "particle", "a wall suggests its method");
+  await page.getByLabel("Method", { exact: true }).selectOption("sst");
   assert.equal(await page.getByLabel("Population P").inputValue(), "10", "a wall suggests a small population");
   await page.getByText("Evaluations, about").waitFor();
   await page.getByLabel("Seed").fill("5");

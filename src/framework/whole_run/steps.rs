@@ -2,8 +2,8 @@
 //!
 //! A pose that is allowed and near enough passes as it is. Otherwise the trial goes as far towards it as one step may,
 //! to an allowed pose; where there is none within a step the run ends, and goals not reached are out of reach. The
-//! pose before a trial is the last accepted one where the world is put back and the accepted poses are repeated, else
-//! the last trial.
+//! pose before a trial is the last trial's; where the world is put back the robot returns to its start, repeats the
+//! accepted poses, and the last of them is the pose before.
 //!
 //! Where consecutive *goals* are one step apart at most, the result is the sequence of measured poses with the least
 //! sum of squared distances from the goals among those that keep to it (dynamic programming over goals and trials).

@@ -32,7 +32,12 @@ interface Props {
   marks?: number[];
   height?: number;
   legend?: boolean;
+  /** A logarithmic y axis; values must be above 0. */
+  logarithmic?: boolean;
 }
+
+// eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment -- uPlot declares the enum but exports no value
+const LOGARITHMIC = 3 as uPlot.Scale.Distr;
 
 function axis(label: string, size: number): uPlot.Axis {
   const line = { stroke: token("grid"), width: 1 };
@@ -45,7 +50,7 @@ function axis(label: string, size: number): uPlot.Axis {
     stroke: token("muted"),
     grid: line,
     ticks: { ...line, size: 4 },
-    values: (_plot, splits) => splits.map((value) => formatNumber(value)),
+    values: (_plot, splits) => splits.map((value: number | null) => (value === null ? "" : formatNumber(value))),
   };
 }
 
@@ -82,7 +87,7 @@ function drawMarks(marks: readonly number[]) {
   };
 }
 
-export function LineChart({ summary, x, xLabel, yLabel, series, marks, height = 240, legend = true }: Props) {
+export function LineChart({ summary, x, xLabel, yLabel, series, marks, height = 240, legend = true, logarithmic = false }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const shownMarks = useRef<readonly number[]>([]);
@@ -104,7 +109,7 @@ export function LineChart({ summary, x, xLabel, yLabel, series, marks, height = 
         height,
         legend: { show: legend, live: true },
         cursor: { y: false, drag: { x: false, y: false } },
-        scales: { x: { time: false } },
+        scales: { x: { time: false }, y: logarithmic ? { distr: LOGARITHMIC, log: 10 } : {} },
         axes: [axis(xLabel, 40), axis(yLabel, 58)],
         series: [{ label: xLabel, value: (_plot, value: number | null) => formatNumber(value) }, ...latest.current.map(line)],
         hooks: { drawClear: [(self: uPlot) => drawMarks(shownMarks.current)(self)] },
@@ -120,11 +125,11 @@ export function LineChart({ summary, x, xLabel, yLabel, series, marks, height = 
       chart.destroy();
       plot.current = null;
     };
-  }, [shape, xLabel, yLabel, height, legend, dark]);
+  }, [shape, xLabel, yLabel, height, legend, logarithmic, dark]);
 
   useEffect(() => {
     plot.current?.setData([x, ...series.map((each) => each.values)]);
-  }, [x, series, marks, shape, xLabel, yLabel, height, legend, dark]);
+  }, [x, series, marks, shape, xLabel, yLabel, height, legend, logarithmic, dark]);
 
   return <div ref={host} className="chart" role="img" aria-label={summary} style={{ minHeight: height }} />;
 }

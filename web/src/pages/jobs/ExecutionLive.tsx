@@ -27,6 +27,7 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
     ? { index: progress.goal_index, evaluations: progress.goal_evaluations, discrepancy: progress.discrepancy ?? null }
     : null;
   const kept = progress.trials ?? [];
+  const tolerance = job.request.kind === "execution" ? (job.request.execution.tolerance ?? null) : null;
   const trials = live.trials.length >= kept.length ? live.trials : kept;
   const cumulative = goals.map((_, index) => goals.slice(0, index + 1).reduce((sum, goal) => sum + goal.evaluations, 0));
   return (
@@ -37,7 +38,7 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
       <div className="columns">
         {trials.length > 0 ? (
           <Card title="Trials" aside={<RunLabel progress={progress} />}>
-            <TrialsChart trials={trials} unit={unit} />
+            <TrialsChart trials={trials} tolerance={tolerance} unit={unit} />
           </Card>
         ) : (
         <div className="stack">

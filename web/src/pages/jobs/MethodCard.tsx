@@ -24,7 +24,7 @@ export function MethodCard({ form, world, change }: Props) {
   const text: Text = (key) => ({ value: form[key], onChange: (value) => change({ [key]: value }) });
   const method = methodNamed(form.method);
   return (
-    <Card title="Method">
+    <Card title="How it searches">
       <div className="fields">
         <SelectField
           label="Method"
@@ -34,7 +34,7 @@ export function MethodCard({ form, world, change }: Props) {
         />
         <SelectField label="Metric" hint="How discrepancy is measured." options={METRICS} {...text("metric")} />
       </div>
-      <p className="small muted" aria-live="polite">
+      <p className="small muted" aria-live="polite" style={{ margin: "12px 0" }}>
         {method?.explanation}
       </p>
       <div className="fields">

@@ -4,28 +4,39 @@ import type { TrialProgress } from "../../api/types";
 import { Chart } from "../../charts/Chart";
 import { formatNumber, formatQuantity } from "../../lib/format";
 
-export function TrialsChart({ trials, unit }: { trials: readonly TrialProgress[]; unit: string }) {
+/** Distances that differ more than this are drawn on a logarithmic axis. */
+const WIDE = 30;
+
+interface Props {
+  trials: readonly TrialProgress[];
+  /** Distance at which a goal is reached, where the request gives one. */
+  tolerance: number | null;
+  unit: string;
+}
+
+export function TrialsChart({ trials, tolerance, unit }: Props) {
   const last = trials.at(-1);
   if (last === undefined) return <p className="muted">Each trial appears here as a point.</p>;
-  const x = trials.map((trial) => trial.index + 1);
-  const seen = trials.map((trial) => trial.residual ?? null);
-  const lost = seen.filter((residual) => residual === null).length;
-  const nearest = trials.map((trial, index) => bestOf(trials.slice(0, index + 1), trial.goal));
+  const away = trials.map((trial) => trial.residual ?? null);
+  const seen = away.filter((residual) => residual !== null);
+  const lost = away.length - seen.length;
+  const within = tolerance === null ? [] : [{ label: "tolerance", values: trials.map(() => tolerance), color: "curve", dashed: true, width: 1 }];
   return (
     <>
       <Chart
-        summary={`${trials.length} trials; the last one, for goal ${last.goal + 1}, came ${formatNumber(last.residual)} ${unit} near`}
-        x={x}
+        summary={`${trials.length} trials; the last one, for goal ${last.goal + 1}, came as near as ${formatNumber(last.residual)} ${unit}`}
+        x={trials.map((trial) => trial.index + 1)}
         xLabel="trial"
         yLabel={unit === "" ? "distance from its goal" : `distance from its goal, ${unit}`}
-        series={[
-          { label: "trial", values: seen, color: "simulated", points: true },
-          { label: "best for that goal", values: nearest, color: "curve", stepped: true, width: 1 },
-        ]}
+        series={[{ label: "trial", values: away, color: "simulated", points: true }, ...within]}
+        legend={false}
+        logarithmic={seen.length > 1 && Math.min(...seen) > 0 && Math.max(...seen) > WIDE * Math.min(...seen)}
+        height={300}
       />
       <p className="small muted">
         Trial {last.index + 1} was made for goal {last.goal + 1}:{" "}
         {last.residual == null ? "its observation was lost." : `${formatQuantity(last.residual, unit)} away.`}
+        {tolerance !== null && ` The dashed line is the tolerance, ${formatQuantity(tolerance, unit)}.`}
         {lost > 0 && ` ${lost} of ${trials.length} observations were lost; each cost a trial.`}
       </p>
     </>

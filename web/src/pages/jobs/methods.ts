@@ -18,45 +18,45 @@ export interface Method {
 export const METHODS: readonly Method[] = [
   {
     name: "model",
-    label: "MODEL-IET: a dozen evaluations",
+    label: "MODEL-IET",
     explanation:
-      "Learns from each trial what the joints do to the features, and tries next the pose it expects nearest to a goal. It knows when a goal is out of reach and says how near it came.",
+      "A dozen evaluations. Learns from each trial what the joints do to the features, and tries next the pose it expects nearest to a goal. It knows when a goal is out of reach and says how near it came.",
     world: "tool_position",
     few: true,
   },
   {
     name: "particle",
-    label: "PARTICLE-IET: one evaluation a cell, with a simulator",
+    label: "PARTICLE-IET",
     explanation:
-      "Takes the described robot as an uncertain simulator: many slightly different robots vote for the next pose, and each trial tells which of them are wrong.",
+      "About one evaluation a cell. Takes the described robot as an uncertain simulator: many slightly different robots vote for the next pose, and each trial tells which of them are wrong.",
     world: "coverage",
     few: true,
   },
   {
     name: "search",
-    label: "SEARCH-IET: nothing known, only the percentage seen",
+    label: "SEARCH-IET",
     explanation:
-      "Needs no simulator: it searches where no trial has been near yet, and more where trials gained. Takes some four times as many evaluations as PARTICLE-IET.",
+      "Nothing is known but the percentage seen: it searches where no trial has been near yet, and more where trials gained. Takes some four times as many evaluations as PARTICLE-IET.",
     world: "coverage",
     few: true,
   },
   {
     name: "broyden",
-    label: "Broyden: Gauss-Newton with an estimated Jacobian",
-    explanation: "A classical yardstick: few evaluations where it converges, with some bad runs.",
+    label: "Broyden",
+    explanation: "Gauss-Newton with an estimated Jacobian, a classical yardstick: few evaluations where it converges, with some bad runs.",
     world: "tool_position",
     few: false,
   },
   {
     name: "cma_es",
-    label: "CMA-ES: a classical evolution strategy",
-    explanation: "A yardstick known everywhere: hundreds of evaluations, begun at the previous goal's result.",
+    label: "CMA-ES",
+    explanation: "An evolution strategy, a yardstick known everywhere: hundreds of evaluations, begun at the previous goal's result.",
     few: false,
   },
   {
     name: "sst",
-    label: "SST: steady-state tournament, as in the paper",
-    explanation: "The paper's evolutionary search: thousands of evaluations, for simulation.",
+    label: "SST",
+    explanation: "The paper's steady-state tournament: thousands of evaluations, for simulation.",
     few: false,
   },
 ];
