@@ -27,7 +27,7 @@ fn after(trials: usize, noise: f64) -> ModelIet {
         let (mut joints, mut seen) = (space.home(), vec![0.0; 3]);
         space.uniform(&mut random, &mut joints);
         world.observe(&joints, &mut seen);
-        run.tell(Trial { joints, observation: Some(seen), goal });
+        run.tell(Trial { joints, observation: Some(seen), cells: None, goal });
     }
     run
 }

@@ -322,7 +322,7 @@ pub(crate) async fn ends_a_job_once_with_its_results(store: &dyn Store) {
     let claim = claimed(store).await.unwrap().claim;
     store.advance(&claim, transition(Event::Start), AT).await.unwrap();
     let mut runs = vec![run(5, &id, 0), run(4, &id, 1)];
-    let trial = Trial { joints: vec![0.1 + 0.2], observation: None, goal: 2 };
+    let trial = Trial { joints: vec![0.1 + 0.2], observation: None, cells: None, goal: 2 };
     runs[0].trials = KeptTrials { setting: Some("arm".to_owned()), trials: vec![trial] };
     let step = Advance { runs: runs.clone(), ..transition(Event::Succeed) };
     assert_eq!(store.advance(&claim, step.clone(), AT).await.unwrap(), State::Succeeded);

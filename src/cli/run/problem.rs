@@ -8,7 +8,7 @@ use crate::framework::preset::{self, Preset};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;
 use crate::framework::whole_run::Prior;
-use crate::framework::world::{RealitySpec, WorldSpec};
+use crate::framework::world::{RealitySpec, SurfaceView, WorldSpec};
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
@@ -45,6 +45,9 @@ pub(super) struct ProblemArguments {
     /// A surface cannot be put back between trials.
     #[arg(long)]
     no_reset: bool,
+    /// The painted cells of a surface are seen, not only their share.
+    #[arg(long)]
+    cells: bool,
     /// How discrepancies are measured.
     #[arg(long, value_enum)]
     metric: Option<Metric>,
@@ -142,8 +145,11 @@ pub(super) fn read_like(arguments: &ProblemArguments, name: &str) -> anyhow::Res
 }
 
 fn adjusted(mut named: Preset, arguments: &ProblemArguments) -> anyhow::Result<Preset> {
-    if let (WorldSpec::Coverage(coverage), true) = (&mut named.problem.world, arguments.no_reset) {
-        coverage.resets = false;
+    if let WorldSpec::Coverage(coverage) = &mut named.problem.world {
+        coverage.resets &= !arguments.no_reset;
+        if arguments.cells {
+            coverage.observes = SurfaceView::Cells;
+        }
     }
     if let Some(method) = &arguments.method
         && !named.select_method(method)

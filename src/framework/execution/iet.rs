@@ -55,7 +55,7 @@ pub struct Iet {
     discrepancy: PartialDiscrepancy,
     optimizer: Option<Box<dyn Optimizer>>,
     goal: GoalState,
-    /// Over the executed candidates of the goal that ended last, the percentage nearest 100; 0 if none was.
+    /// As [`RunResult::painted_percent`], of the goal that ended last.
     painted: Option<f64>,
     results: Vec<GoalResult>,
     evaluations: u64,
@@ -246,20 +246,12 @@ impl Iet {
     fn tell_owner(&mut self, observations: &Observations) -> Result<(), ProblemError> {
         let Some(owner) = &mut self.owner else { return Ok(()) };
         if let Some((_, joints, seen)) = observations.iter().find(|trial| trial.0 == self.evaluations) {
-            let observation = seen.features();
-            let seen = observation.map(|values| self.setup.select.iter().map(|&i| values[i]).collect::<Vec<f64>>());
-            owner.tell(joints, seen.as_deref());
+            owner.tell(&self.setup, joints, seen.features());
             self.evaluations += 1;
-            if let Some(percent) = self.setup.painted.and_then(|index| Some(observation?[index]))
-                && self.goal.painted.is_none_or(|best| (percent - 100.0).abs() < (best - 100.0).abs())
-            {
-                self.goal.painted = Some(percent);
-            }
         }
         if owner.next == Next::Finished && self.results.is_empty() {
             self.results = owner.results(&self.setup, &mut self.discrepancy, observations.provenance())?;
-            let goal = std::mem::take(&mut self.goal);
-            self.painted = self.setup.painted.map(|_| goal.painted.unwrap_or(0.0));
+            self.painted = self.setup.painted.map(|_| owner.kept().unwrap_or(0.0));
         }
         Ok(())
     }

@@ -9,10 +9,10 @@ use crate::framework::constraint::Proposal as Pose;
 use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
 use crate::framework::robot::Chain;
 use crate::framework::whole_run::{
-    Broyden, CoverSpec, FeatureMap, ModelIet, ModelSpec, ParticleIet, Prior, Proposal, SearchIet, Simulator, Space,
-    StepLimits, Stepped, Targets, Trial, WholeRun,
+    Broyden, CoverSpec, FeatureMap, Grid, ModelIet, ModelSpec, ParticleIet, Prior, Proposal, SearchIet, Simulator,
+    Space, StepLimits, Stepped, Targets, Trial, WholeRun,
 };
-use crate::framework::world::{self, CoverageSpec, World, WorldSpec};
+use crate::framework::world::{self, CoverageSpec, SurfaceView, World, WorldSpec};
 use std::sync::Arc;
 
 /// Share of the goals' extent that is near enough where no tolerance is given.
@@ -79,10 +79,18 @@ impl Owner {
         }
     }
 
-    pub fn tell(&mut self, joints: &[f64], observation: Option<&[f64]>) {
-        let goal = self.goal();
-        self.method.tell(Trial { joints: joints.to_vec(), observation: observation.map(<[f64]>::to_vec), goal });
+    /// Takes what the world showed at `joints`; none where that was lost.
+    pub fn tell(&mut self, setup: &Setup, joints: &[f64], shown: Option<&[f64]>) {
+        let observation = shown.map(|values| setup.select.iter().map(|&source| values[source]).collect());
+        let cells = shown.and_then(|values| setup.cells(values));
+        self.method.tell(Trial { joints: joints.to_vec(), observation, cells, goal: self.goal() });
         self.next = self.ask();
+    }
+
+    /// What the trials whose effect stays have brought the first feature to, once one was seen.
+    pub fn kept(&self) -> Option<f64> {
+        let kept = self.method.accepted().iter().rev();
+        kept.map(|&index| &self.method.log()[index]).find_map(|trial| Some(trial.observation.as_ref()?[0]))
     }
 
     /// The results of all goals, once the method has finished.
@@ -183,7 +191,13 @@ fn unbounded(
         | MethodSpec::Pso(_)
         | MethodSpec::FiPso(_)
         | MethodSpec::AffgPso(_)
-        | MethodSpec::CmaEs(_) => return Ok(None),
+        | MethodSpec::CmaEs(_) => {
+            if matches!(&setup.world, WorldSpec::Coverage(surface) if !surface.resets) {
+                let expected = "a surface that is put back between trials: take particle or search where it cannot be";
+                return Err(ProblemError::Method { method: setup.spec.method.name(), expected });
+            }
+            return Ok(None);
+        }
         MethodSpec::Broyden(spec) => {
             if matches!(setup.world, WorldSpec::Coverage(_)) {
                 let expected = "features that change with the pose; take particle or search for a coverage world";
@@ -203,21 +217,34 @@ fn unbounded(
         }
         MethodSpec::Search(spec) => {
             let coverage = coverage(setup, "search")?;
-            Box::new(SearchIet::new(spec.clone(), coverage.resets, space, &goals, seed))
+            let seen = coverage.observes == SurfaceView::Cells;
+            let grid = seen.then(|| Grid { columns: coverage.columns as usize, rows: coverage.rows as usize });
+            Box::new(SearchIet::new(spec.clone(), coverage.resets, grid, space, &goals, seed))
         }
         MethodSpec::Particle(spec) => {
             let coverage = coverage(setup, "particle")?.clone();
-            let limit = CoverSpec { max_evaluations: spec.max_evaluations, max_step_deg: None };
+            let limit = CoverSpec { max_evaluations: spec.max_evaluations, poses: spec.poses, max_step_deg: None };
             let resets = coverage.resets;
-            let world = WorldSpec::Coverage(coverage);
+            let world = WorldSpec::Coverage(CoverageSpec { observes: SurfaceView::Percent, ..coverage });
             let simulator = Uncertain { chain: setup.chain.clone(), world, spec: spec.clone() };
-            Box::new(ParticleIet::new(limit, resets, space.clone(), &goals, Box::new(simulator), seed))
+            Box::new(ParticleIet::new(
+                limit,
+                resets,
+                space.clone(),
+                &goals,
+                Box::new(simulator),
+                spec.particles as usize,
+                seed,
+            ))
         }
     }))
 }
 
 fn coverage<'a>(setup: &'a Setup, method: &'static str) -> Result<&'a CoverageSpec, ProblemError> {
     match &setup.world {
+        WorldSpec::Coverage(_) if setup.select.first() != Some(&0) || setup.select.len() > 1 => {
+            Err(ProblemError::Method { method, expected: "goals of the one feature \"painted\"" })
+        }
         WorldSpec::Coverage(coverage) => Ok(coverage),
         WorldSpec::ToolPosition(_) => {
             Err(ProblemError::Method { method, expected: "a coverage world; take model here" })

@@ -83,8 +83,8 @@ pub struct RunResult {
     /// Where the fitness values of all goals come from, by count.
     #[serde(default)]
     pub tally: Tally,
-    /// Coverage worlds: over the last goal's executed candidates, the percentage nearest 100, and 0 if none was
-    /// executed.
+    /// Coverage worlds: over the last goal's executed candidates, the percentage nearest 100; for a method that owns
+    /// the run, what the trials whose effect stays have painted. 0 where there is none.
     pub painted_percent: Option<f64>,
     /// All goals, in order.
     pub goals: Vec<GoalResult>,

@@ -9,7 +9,7 @@ use crate::framework::generalization::Goals;
 use crate::framework::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
 use crate::framework::robot::{Chain, RobotModel};
 use crate::framework::whole_run::Trial;
-use crate::framework::world::{self, WorldSpec};
+use crate::framework::world::{self, CoverageSpec, SurfaceView, WorldSpec};
 use std::sync::Arc;
 
 /// What a run needs of its problem.
@@ -72,6 +72,13 @@ impl Setup {
             constraints: Arc::new(constraints),
             earlier: problem.earlier.clone(),
         })
+    }
+
+    /// The cells in an observation of all the world's features, 64 a word; none where cells are not seen.
+    pub(super) fn cells(&self, values: &[f64]) -> Option<Vec<u64>> {
+        let WorldSpec::Coverage(CoverageSpec { observes: SurfaceView::Cells, .. }) = &self.world else { return None };
+        let bits = |word: &[f64]| word.iter().rev().fold(0, |bits, cell| bits << 1 | u64::from(*cell > 0.5));
+        Some(values[1..].chunks(64).map(bits).collect())
     }
 
     /// A fresh search for the goal after `results`.
@@ -190,6 +197,18 @@ fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
     }
     if unexecuted_may_win && !spec.constraints.is_empty() {
         return Err(ConstraintError::UnexecutedWinner.into());
+    }
+    let (poses, particles) = match &spec.method {
+        MethodSpec::Particle(method) => (method.poses, method.particles),
+        MethodSpec::Search(method) => (method.poses, 1),
+        _ => (1, 1),
+    };
+    for (field, value, limit, expected) in
+        [("poses", poses, 8192, "give 1 to 8192"), ("particles", particles, 1024, "give 1 to 1024")]
+    {
+        if !(1..=limit).contains(&value) {
+            return Err(ProblemError::Value { field, value: f64::from(value), expected });
+        }
     }
     if spec.max_evaluations_per_goal == Some(0) {
         let expected = "give at least 1";

@@ -52,6 +52,10 @@ pub struct AutoSpec {
 pub struct ParticleSpec {
     /// The run gives up after this many evaluations.
     pub max_evaluations: u32,
+    /// Draws of the robot (1 to 1024).
+    pub particles: u32,
+    /// Poses to choose from (1 to 8192).
+    pub poses: u32,
     /// Standard deviation of a link's relative length.
     pub link_share: f64,
     /// Standard deviation of each coordinate of the base, metres.
@@ -64,7 +68,14 @@ pub struct ParticleSpec {
 
 impl Default for ParticleSpec {
     fn default() -> Self {
-        Self { max_evaluations: 400, link_share: 0.046, base_shift_m: 0.03, max_step_deg: None }
+        Self {
+            max_evaluations: 400,
+            particles: 80,
+            poses: 1024,
+            link_share: 0.046,
+            base_shift_m: 0.03,
+            max_step_deg: None,
+        }
     }
 }
 

@@ -281,7 +281,7 @@ mod tests {
     fn finish(run: &mut Broyden, world: impl Fn(&[f64]) -> Option<Vec<f64>>) {
         while let Proposal::Execute { joints, goal } = run.ask() {
             assert!(run.log.len() < 400, "it goes on for ever");
-            run.tell(Trial { observation: world(&joints), joints, goal });
+            run.tell(Trial { observation: world(&joints), cells: None, joints, goal });
         }
     }
 
@@ -342,7 +342,7 @@ mod tests {
                 prop_assert_eq!(resumed.ask(), run.ask());
                 let seen = vec![joints[0].sin() + joints[1].cos(), joints[0] * joints[1]];
                 let observation = (run.log.len() % 4 >= lost).then_some(seen);
-                run.tell(Trial { joints, observation, goal });
+                run.tell(Trial { joints, observation, cells: None, goal });
                 prop_assert!(run.log.len() < 400);
             }
         }

@@ -14,6 +14,8 @@ use utoipa::ToSchema;
 pub struct CoverSpec {
     /// The run gives up after this many trials.
     pub max_evaluations: u32,
+    /// Poses to choose from, spread evenly over the joints' ranges (1 to 8192).
+    pub poses: u32,
     /// Largest step of a joint from one trial to the next, degrees (of 180 a stroke for prismatic joints); none where
     /// the robot needs none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,7 +24,7 @@ pub struct CoverSpec {
 
 impl Default for CoverSpec {
     fn default() -> Self {
-        Self { max_evaluations: 400, max_step_deg: None }
+        Self { max_evaluations: 400, poses: 2048, max_step_deg: None }
     }
 }
 
@@ -39,15 +41,26 @@ pub(super) struct Ledger {
     pub accepted: Vec<usize>,
     /// What the world shows after the accepted trials, features' unit.
     level: f64,
+    /// The cells it shows then, where cells are seen.
+    cells: Vec<u64>,
+    /// The first trial that left the world as it was at the start.
+    idle: Option<usize>,
     straight_overshoots: u32,
 }
 
 /// What a trial amounted to.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Verdict {
     /// Steps gained over the accepted trials; none when the observation was lost.
     pub gain: Option<f64>,
+    /// The cells gained, 64 a word; none where they are not seen.
+    pub fresh: Option<Vec<u64>>,
     pub accepted: bool,
+}
+
+/// How many of `cells` are not in `painted`.
+pub(super) fn fresh_count(cells: &[u64], painted: &[u64]) -> u32 {
+    cells.iter().zip(painted).map(|(c, p)| (c & !p).count_ones()).sum()
 }
 
 impl Ledger {
@@ -57,7 +70,18 @@ impl Ledger {
         let step = rises.fold(f64::INFINITY, f64::min);
         let step = if step.is_finite() { step } else { 1.0 };
         let level = goals.first().copied().unwrap_or(0.0).min(0.0);
-        Self { spec, resets, goals, step, log: Vec::new(), accepted: Vec::new(), level, straight_overshoots: 0 }
+        Self {
+            spec,
+            resets,
+            goals,
+            step,
+            log: Vec::new(),
+            accepted: Vec::new(),
+            level,
+            cells: Vec::new(),
+            idle: None,
+            straight_overshoots: 0,
+        }
     }
 
     /// The first goal above what the world shows; none when all are reached.
@@ -79,19 +103,30 @@ impl Ledger {
         let one = gain.is_some_and(|g| (g - 1.0).abs() < 0.5);
         let more = gain.is_some_and(|g| g >= 1.5);
         let accepted = !self.resets || one || (more && self.straight_overshoots >= 2);
+        let before = |word: usize| self.cells.get(word).copied().unwrap_or(0);
+        let fresh = |cells: &Vec<u64>| cells.iter().enumerate().map(|(word, c)| c & !before(word)).collect();
+        let fresh: Option<Vec<u64>> = trial.cells.as_ref().map(fresh);
+        if self.accepted.is_empty() && gain.is_some_and(|g| g.abs() < 0.5) {
+            self.idle = self.idle.or(Some(self.log.len()));
+        }
         if accepted {
             self.accepted.push(self.log.len());
             self.level = seen.unwrap_or(self.level);
+            if let Some(cells) = &trial.cells {
+                self.cells.clone_from(cells);
+            }
         }
         self.straight_overshoots = if more && !accepted { self.straight_overshoots + 1 } else { 0 };
         self.log.push(trial);
-        Verdict { gain, accepted }
+        Verdict { gain, fresh, accepted }
     }
 
-    /// For each goal the first accepted trial that shows it or more; the last one where none does.
+    /// For each goal the first accepted trial that shows it or more, the last one where none does; for goals that hold
+    /// at the start, a trial that changed nothing.
     pub fn outcomes(&self) -> Vec<Outcome> {
         let seen = |index: usize| self.log[index].observation.as_ref().map(|o| o[0]);
-        let shown: Vec<(usize, f64)> = self.accepted.iter().filter_map(|&i| Some((i, seen(i)?))).collect();
+        let kept = self.idle.iter().chain(&self.accepted);
+        let shown: Vec<(usize, f64)> = kept.filter_map(|&i| Some((i, seen(i)?))).collect();
         let slack = 1e-6 * self.step;
         let of = |goal: f64| {
             let found = shown.iter().find(|s| s.1 >= goal - slack).or(shown.last());

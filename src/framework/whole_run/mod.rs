@@ -19,9 +19,12 @@ pub mod process;
 pub mod refine;
 pub mod search;
 mod shortlist;
+pub mod sites;
 pub mod sobol;
 pub mod space;
 pub mod steps;
+#[cfg(test)]
+mod surface_tests;
 #[cfg(test)]
 mod tests;
 
@@ -30,6 +33,7 @@ pub use cover::CoverSpec;
 pub use model::{ModelIet, ModelSpec, Prior};
 pub use particle::{ParticleIet, Simulator};
 pub use search::SearchIet;
+pub use sites::Grid;
 pub use space::{Allows, Axis, Space};
 pub use steps::{StepLimits, Stepped, Targets};
 
@@ -55,6 +59,9 @@ pub struct Trial {
     pub joints: Vec<f64>,
     /// The m features seen; none when the observation was lost.
     pub observation: Option<Vec<f64>>,
+    /// The cells seen affected after it, 64 a word, row-major, lowest bit first; none where cells are not seen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cells: Option<Vec<u64>>,
     /// The goal the pose was tried for.
     pub goal: usize,
 }

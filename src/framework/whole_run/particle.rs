@@ -2,22 +2,21 @@
 //!
 //! Each particle is one draw of the simulator's parameters; it says which cells each pose covers and which cells the
 //! accepted trials have changed (S_k). The next trial is the unused pose that most particles, by weight, expect to
-//! gain exactly one cell. A trial reweighs: `log w_k -= 1.5 | |cover_k(q) minus S_k| - gain |`.
+//! gain exactly one cell. A trial reweighs: `log w_k -= 1.5 | |cover_k(q) minus S_k| - gain |`; where the cells are
+//! seen, by the number of cells that were expected and not gained or gained and not expected, and S_k is what is seen.
 //! Where no pose convinces half of the weight, particles are resampled and jittered, and the log is replayed.
 //!
-//! Source: A. Doucet, N. de Freitas, N. Gordon, Sequential Monte Carlo Methods in Practice, Springer 2001.
+//! Source: N. J. Gordon, D. J. Salmond, A. F. M. Smith, IEE Proceedings F 140 (1993) 107-113.
 
-use super::cover::{CoverSpec, Ledger};
+use super::cover::{CoverSpec, Ledger, Verdict, fresh_count};
 use super::sobol;
 use super::space::{Space, gaussian};
 use super::{Outcome, Proposal, Trial, WholeRun};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-const PARTICLES: usize = 80;
-const POSES: usize = 1024;
-/// Of a renewed pool, poses around the liked ones; their centres; their spread, rad.
-const LOCAL_POSES: usize = 256;
+/// Of a renewed pool, one pose in this many lies around the liked ones; their centres; their spread, rad.
+const LOCAL_SHARE: usize = 4;
 const CENTRES: usize = 16;
 const LOCAL_SPREAD: f64 = 0.1;
 const SHARPNESS: f64 = 1.5;
@@ -56,20 +55,18 @@ pub struct ParticleIet {
     seed: u64,
     space: Space,
     simulator: Box<dyn Simulator>,
+    /// Poses in a pool.
+    count: usize,
     poses: Vec<Vec<f64>>,
     used: Vec<bool>,
     particles: Vec<Particle>,
-    verdicts: Vec<(Option<f64>, bool)>,
+    verdicts: Vec<Verdict>,
     next: Option<usize>,
     hopeless: u32,
 }
 
-fn fresh(cover: &[u64], painted: &[u64]) -> u32 {
-    cover.iter().zip(painted).map(|(c, p)| (c & !p).count_ones()).sum()
-}
-
 impl ParticleIet {
-    /// A run for `goals` over `space` with `simulator` as the prior.
+    /// A run for `goals` over `space` with `particles` draws of `simulator` as the prior.
     #[must_use]
     pub fn new(
         spec: CoverSpec,
@@ -77,13 +74,14 @@ impl ParticleIet {
         space: Space,
         goals: &[Vec<f64>],
         simulator: Box<dyn Simulator>,
+        particles: usize,
         seed: u64,
     ) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let poses = sobol::poses(&space, POSES, &mut random);
+        let poses = sobol::poses(&space, spec.poses as usize, &mut random);
         let spreads = simulator.spreads();
         let words = simulator.cells().div_ceil(64);
-        let particles = (0..PARTICLES)
+        let particles = (0..particles)
             .map(|_| {
                 let parameters: Vec<f64> = spreads.iter().map(|s| s * gaussian(&mut random)).collect();
                 let covers = simulator.covers(&parameters, &poses);
@@ -91,6 +89,7 @@ impl ParticleIet {
             })
             .collect();
         let mut run = Self {
+            count: poses.len(),
             ledger: Ledger::new(spec, resets, goals),
             seed,
             space,
@@ -119,7 +118,8 @@ impl ParticleIet {
         let unused = (0..self.poses.len()).filter(|&z| !self.used[z]);
         unused
             .map(|z| {
-                let agree = self.particles.iter().zip(&weights).filter(|(p, _)| fresh(&p.covers[z], &p.painted) == 1);
+                let agree =
+                    self.particles.iter().zip(&weights).filter(|(p, _)| fresh_count(&p.covers[z], &p.painted) == 1);
                 (agree.map(|(_, w)| w).sum(), z)
             })
             .collect()
@@ -159,10 +159,11 @@ impl ParticleIet {
         let spreads = self.simulator.spreads();
         let start: f64 = random.random::<f64>();
         let (mut sum, mut index) = (weights[0], 0);
-        let drawn: Vec<Vec<f64>> = (0..PARTICLES)
+        let count = self.particles.len();
+        let drawn: Vec<Vec<f64>> = (0..count)
             .map(|k| {
-                let at = (k as f64 + start) / PARTICLES as f64;
-                while sum < at && index + 1 < PARTICLES {
+                let at = (k as f64 + start) / count as f64;
+                while sum < at && index + 1 < count {
                     index += 1;
                     sum += weights[index];
                 }
@@ -179,8 +180,8 @@ impl ParticleIet {
             particle.parameters = parameters;
             particle.painted = vec![0; words];
             particle.log_weight = 0.0;
-            for (cover, &(gain, accepted)) in replay.iter().zip(&self.verdicts) {
-                particle.learn(cover, gain, accepted);
+            for (cover, verdict) in replay.iter().zip(&self.verdicts) {
+                particle.learn(cover, verdict);
             }
         }
     }
@@ -190,9 +191,10 @@ impl ParticleIet {
         let mut liked = self.chances();
         liked.sort_by(|a, b| b.0.total_cmp(&a.0));
         liked.truncate(CENTRES);
-        let mut pool = sobol::poses(&self.space, POSES - LOCAL_POSES, random);
+        let local = self.count / LOCAL_SHARE;
+        let mut pool = sobol::poses(&self.space, self.count - local, random);
         let mut pose = self.space.home();
-        for (_, centre) in liked.iter().cycle().take(LOCAL_POSES) {
+        for (_, centre) in liked.iter().cycle().take(local) {
             self.space.near(&self.poses[*centre], LOCAL_SPREAD, random, &mut pose);
             if self.space.allows(&pose) {
                 pool.push(pose.clone());
@@ -217,11 +219,11 @@ impl WholeRun for ParticleIet {
         if let Some(z) = self.poses.iter().position(|p| *p == tried[0]) {
             self.used[z] = true;
         }
-        self.verdicts.push((verdict.gain, verdict.accepted));
         for particle in &mut self.particles {
             let cover = self.simulator.covers(&particle.parameters, &tried);
-            particle.learn(&cover[0], verdict.gain, verdict.accepted);
+            particle.learn(&cover[0], &verdict);
         }
+        self.verdicts.push(verdict);
         if !self.ledger.is_over() {
             self.decide();
         }
@@ -241,12 +243,23 @@ impl WholeRun for ParticleIet {
 }
 
 impl Particle {
-    fn learn(&mut self, cover: &[u64], gain: Option<f64>, accepted: bool) {
-        if let Some(gain) = gain {
-            self.log_weight -= SHARPNESS * (f64::from(fresh(cover, &self.painted)) - gain).abs();
-        }
-        if accepted {
-            self.painted.iter_mut().zip(cover).for_each(|(p, c)| *p |= c);
+    /// Judges what it expected of a trial by the cells that were seen gained, or else by their number.
+    fn learn(&mut self, cover: &[u64], verdict: &Verdict) {
+        let expected = fresh_count(cover, &self.painted);
+        let wrong = match (&verdict.fresh, verdict.gain) {
+            (Some(seen), _) => {
+                let unseen = cover.iter().zip(&self.painted).zip(seen).map(|((c, p), s)| c & !p & !s);
+                let missed = unseen.map(u64::count_ones).sum::<u32>();
+                let unexpected = fresh_count(seen, cover);
+                f64::from(missed + unexpected)
+            }
+            (None, Some(gain)) => (f64::from(expected) - gain).abs(),
+            (None, None) => 0.0,
+        };
+        self.log_weight -= SHARPNESS * wrong;
+        if verdict.accepted {
+            let kept = verdict.fresh.as_deref().unwrap_or(cover);
+            self.painted.iter_mut().zip(kept).for_each(|(p, c)| *p |= c);
         }
     }
 }

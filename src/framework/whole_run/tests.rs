@@ -4,7 +4,7 @@ use super::kernel::{Factors, Kernel, Poses};
 use super::process::{Family, Process};
 use super::{Axis, BroydenSpec, ModelIet, ModelSpec, Proposal, Space, Trial, WholeRun};
 use crate::framework::execution::{Iet, IetState, Problem, RunResult, run, simulate};
-use crate::framework::optimizer::{MethodSpec, ParticleSpec};
+use crate::framework::optimizer::MethodSpec;
 use crate::framework::preset;
 use nalgebra::DMatrix;
 
@@ -73,7 +73,7 @@ fn asking_is_a_function_of_the_log() {
         let mut resumed = fresh();
         whole.log().iter().for_each(|t| resumed.tell(t.clone()));
         assert_eq!(resumed.ask(), Proposal::Execute { joints: joints.clone(), goal });
-        whole.tell(Trial { observation: Some(world(&joints)), joints, goal });
+        whole.tell(Trial { observation: Some(world(&joints)), cells: None, joints, goal });
     }
     assert!(whole.log().len() < 40);
 }
@@ -86,14 +86,8 @@ fn wax_takes_a_dozen_and_a_half_evaluations() {
     assert_eq!(counted, result.evaluations);
 }
 
-#[test]
-fn paint_takes_a_trial_a_square() {
-    let result = run(&shipped("paint", MethodSpec::Particle(ParticleSpec::default())), 5000).unwrap();
-    assert!(result.evaluations <= 20, "{} evaluations", result.evaluations);
-    assert_eq!(result.painted_percent, Some(100.0));
-}
-
-fn interrupted(problem: &Problem, seed: u64, slice: u64) -> RunResult {
+/// The run, saved and resumed after every `slice` evaluations.
+pub(super) fn interrupted(problem: &Problem, seed: u64, slice: u64) -> RunResult {
     let mut iet = Iet::new(problem, seed).unwrap();
     while !iet.is_finished() {
         let mut world = iet.world().unwrap();
@@ -109,7 +103,6 @@ fn a_resumed_run_gives_the_same_bits() {
     for (name, method) in [
         ("wax-reachable", MethodSpec::Model(ModelSpec::default())),
         ("wax", MethodSpec::Broyden(BroydenSpec::default())),
-        ("paint", MethodSpec::Particle(ParticleSpec::default())),
     ] {
         let problem = shipped(name, method);
         assert_eq!(interrupted(&problem, 3, 4), run(&problem, 3).unwrap(), "{name}");

@@ -1,29 +1,37 @@
 //! The coverage world (the paper's paint): which cells of a grid the tool has come near.
 
-use super::{CoverageSpec, World, WorldError};
+use super::{CoverageSpec, SurfaceView, World, WorldError};
 use crate::framework::Feature;
 use crate::framework::robot::{Chain, tool_position};
 use nalgebra::Vector3;
 
 /// Most cells a surface may have.
 const MAX_CELLS: u64 = 1 << 20;
+/// Most cells of a surface whose cells are seen: each is a feature.
+const MAX_SEEN_CELLS: u64 = 1 << 12;
 /// Largest coordinate, step and reach, metres.
 const MAX_LENGTH_M: f64 = 1e4;
 
-/// Feature `painted`, %. Cells are bits, row-major.
+/// Feature `painted`, %, and the cells where they are seen. Cells are bits, row-major.
 #[derive(Debug, Clone)]
 pub(super) struct Coverage {
     chain: Chain,
-    feature: Feature,
+    features: Vec<Feature>,
     centres_m: Vec<Vector3<f64>>,
     radius_squared: f64,
     painted: Vec<u64>,
     count: usize,
 }
 
-/// The feature of a coverage world.
-pub(super) fn feature() -> Feature {
-    Feature::new("painted", "%")
+/// The features of a coverage world: the share, then the cells where they are seen.
+pub(super) fn features(spec: &CoverageSpec) -> Vec<Feature> {
+    let cell = |row, column| Feature::new(format!("cell_{row}_{column}"), "");
+    let cells = |row| (1..=spec.columns).map(move |column| cell(row, column));
+    let share = std::iter::once(Feature::new("painted", "%"));
+    match spec.observes {
+        SurfaceView::Percent => share.collect(),
+        SurfaceView::Cells => share.chain((1..=spec.rows).flat_map(cells)).collect(),
+    }
 }
 
 /// Whether a surface can be built, without building it.
@@ -35,8 +43,12 @@ pub(super) fn check(spec: &CoverageSpec) -> Result<(), WorldError> {
         return Err(WorldError::Radius { found: spec.radius_m, limit: MAX_LENGTH_M });
     }
     let cells = u64::from(spec.columns) * u64::from(spec.rows);
-    if cells == 0 || cells > MAX_CELLS {
-        return Err(WorldError::Cells { columns: spec.columns, rows: spec.rows, cells, limit: MAX_CELLS });
+    let limit = match spec.observes {
+        SurfaceView::Percent => MAX_CELLS,
+        SurfaceView::Cells => MAX_SEEN_CELLS,
+    };
+    if cells == 0 || cells > limit {
+        return Err(WorldError::Cells { columns: spec.columns, rows: spec.rows, cells, limit });
     }
     for (field, vector) in
         [("origin_m", spec.origin_m), ("column_step_m", spec.column_step_m), ("row_step_m", spec.row_step_m)]
@@ -72,7 +84,7 @@ impl Coverage {
         let centres_m = centres(spec)?;
         Ok(Self {
             chain: chain.clone(),
-            feature: feature(),
+            features: features(spec),
             painted: vec![0; centres_m.len().div_ceil(64)],
             centres_m,
             radius_squared: spec.radius_m * spec.radius_m,
@@ -87,7 +99,7 @@ impl Coverage {
 
 impl World for Coverage {
     fn features(&self) -> &[Feature] {
-        std::slice::from_ref(&self.feature)
+        &self.features
     }
 
     fn reset(&mut self) {
@@ -97,10 +109,17 @@ impl World for Coverage {
 
     fn observe(&mut self, joints: &[f64], observation: &mut [f64]) {
         let tool = tool_position(&self.chain, joints);
-        let fresh = self.centres_m.iter().enumerate().filter(|(cell, centre)| {
-            (tool - **centre).norm_squared() < self.radius_squared && self.painted[cell / 64] >> (cell % 64) & 1 == 0
-        });
-        observation[0] = self.percent(self.count + fresh.count());
+        let (share, seen) = observation.split_at_mut(1);
+        let mut count = self.count;
+        for (cell, centre) in self.centres_m.iter().enumerate() {
+            let was_painted = self.painted[cell / 64] >> (cell % 64) & 1 == 1;
+            let is_near = (tool - centre).norm_squared() < self.radius_squared;
+            count += usize::from(is_near && !was_painted);
+            if let Some(value) = seen.get_mut(cell) {
+                *value = f64::from(u8::from(is_near || was_painted));
+            }
+        }
+        share[0] = self.percent(count);
     }
 
     fn commit(&mut self, joints: &[f64], observation: &mut [f64]) {
@@ -113,6 +132,9 @@ impl World for Coverage {
             }
         }
         observation[0] = self.percent(self.count);
+        for (cell, value) in observation[1..].iter_mut().enumerate() {
+            *value = f64::from(u8::from(self.painted[cell / 64] >> (cell % 64) & 1 == 1));
+        }
     }
 
     fn cells(&self) -> Option<&[u64]> {

@@ -14,7 +14,7 @@ mod tool_position;
 
 pub use error::WorldError;
 pub use real::{RealitySpec, build_real};
-pub use spec::{CoverageSpec, ToolPositionSpec, WorldSpec};
+pub use spec::{CoverageSpec, SurfaceView, ToolPositionSpec, WorldSpec};
 
 use crate::framework::Feature;
 use crate::framework::robot::Chain;
@@ -60,7 +60,7 @@ pub fn features(spec: &WorldSpec) -> Result<Vec<Feature>, WorldError> {
         WorldSpec::ToolPosition(spec) => Ok(tool_position::features(spec)?.to_vec()),
         WorldSpec::Coverage(spec) => {
             coverage::check(spec)?;
-            Ok(vec![coverage::feature()])
+            Ok(coverage::features(spec))
         }
     }
 }

@@ -21,6 +21,17 @@ pub struct ToolPositionSpec {
     pub unit: String,
 }
 
+/// What an observation of a surface holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SurfaceView {
+    /// The share painted.
+    #[default]
+    Percent,
+    /// The share painted, then for each cell, row by row, feature `cell_ROW_COLUMN`: 1 painted, 0 not.
+    Cells,
+}
+
 /// Feature `painted`, %: 100 x cells painted / cells. A cell becomes painted when the tool centre point is strictly
 /// nearer than `radius_m` to its centre at a visited static pose, and stays painted until the world is reset.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -41,6 +52,14 @@ pub struct CoverageSpec {
     /// Whether the surface can be put back as it was between trials.
     #[serde(default = "resets_by_default")]
     pub resets: bool,
+    /// Whether the painted cells are seen, or the share alone.
+    #[serde(default, skip_serializing_if = "is_percent")]
+    pub observes: SurfaceView,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes what it may skip by reference")]
+fn is_percent(view: &SurfaceView) -> bool {
+    *view == SurfaceView::Percent
 }
 
 fn resets_by_default() -> bool {

@@ -3,7 +3,7 @@
 use super::{all, finite, required, triple};
 use crate::app::AppError;
 use crate::app::worlds::{CreateWorld, WorldView};
-use crate::framework::world::{CoverageSpec, ToolPositionSpec, WorldSpec};
+use crate::framework::world::{CoverageSpec, SurfaceView, ToolPositionSpec, WorldSpec};
 use crate::grpc::proto;
 use proto::world_spec::Kind;
 
@@ -24,6 +24,10 @@ fn spec(kind: Kind) -> Result<WorldSpec, AppError> {
             rows: world.rows,
             radius_m: finite("/spec/radius_m", world.radius_m)?,
             resets: world.resets.unwrap_or(true),
+            observes: match world.observes() {
+                proto::SurfaceView::Cells => SurfaceView::Cells,
+                proto::SurfaceView::Percent | proto::SurfaceView::Unspecified => SurfaceView::Percent,
+            },
         }),
     })
 }
@@ -40,6 +44,11 @@ impl From<WorldSpec> for proto::WorldSpec {
                 rows: world.rows,
                 radius_m: world.radius_m,
                 resets: Some(world.resets),
+                observes: match world.observes {
+                    SurfaceView::Percent => proto::SurfaceView::Percent,
+                    SurfaceView::Cells => proto::SurfaceView::Cells,
+                }
+                .into(),
             }),
         };
         Self { kind: Some(kind) }
