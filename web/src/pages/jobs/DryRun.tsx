@@ -6,6 +6,8 @@ import { formatCount, formatDuration } from "../../lib/format";
 import { Card, Facts } from "../../ui/basics";
 import { Loaded, Notice } from "../../ui/feedback";
 
+const capitalized = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
+
 /** What the server says of the job before it is started: what is wrong with it, or what it will cost. */
 export function DryRun({ request }: { request: CreateJob | null }) {
   const asked = useDeferredValue(request);
@@ -43,9 +45,8 @@ export function DryRun({ request }: { request: CreateJob | null }) {
                       { name: "If each were a trial on a robot", value: formatDuration(estimate.robot_s) },
                     ]}
                   />
-                  <p className="small muted">
-                    {estimate.text} ({estimate.basis})
-                  </p>
+                  <p>{capitalized(estimate.text)}.</p>
+                  <p className="small muted">How this is known: {estimate.basis}.</p>
                 </>
               )}
             </div>

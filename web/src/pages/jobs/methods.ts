@@ -2,7 +2,7 @@
 
 import type { World } from "../../api/types";
 
-export type MethodName = "model" | "particle" | "search" | "broyden" | "cma_es" | "sst";
+export type MethodName = "auto" | "model" | "particle" | "search" | "broyden" | "cma_es" | "sst";
 
 export interface Method {
   name: MethodName;
@@ -16,6 +16,12 @@ export interface Method {
 }
 
 export const METHODS: readonly Method[] = [
+  {
+    name: "auto",
+    label: "Automatic",
+    explanation: "Chosen for the features, the world and the constraints when the job is submitted, which tells the choice and why.",
+    few: false,
+  },
   {
     name: "model",
     label: "MODEL-IET",
