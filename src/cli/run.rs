@@ -4,6 +4,7 @@ mod dry_run;
 mod figures;
 mod output;
 mod problem;
+mod reality;
 mod seeded;
 
 use crate::framework::execution::{Iet, ROBOT_TRIAL_S, RunResult, simulate};

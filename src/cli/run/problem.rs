@@ -1,5 +1,6 @@
 //! Which problem `cgda run` runs: a preset, or demonstrations with a robot and a world.
 
+use super::reality::{RealityArguments, SurfaceArguments};
 use crate::cli::demonstrations::{ReadArguments, read_demonstrations};
 use crate::framework::execution::{ExecutionSpec, Problem};
 use crate::framework::generalization::{GeneralizeSpec, Weighting, generalize};
@@ -7,8 +8,6 @@ use crate::framework::optimizer::{MethodSpec, SstSpec};
 use crate::framework::preset::{self, Preset};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;
-use crate::framework::whole_run::Prior;
-use crate::framework::world::{RealitySpec, SurfaceView, WorldSpec};
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
@@ -32,22 +31,10 @@ pub(super) struct ProblemArguments {
     /// A goal ends after this many evaluations.
     #[arg(long, value_name = "EVALUATIONS")]
     max_evaluations_per_goal: Option<u64>,
-    /// What method model believes before its first trial; with a simulator the real robot is simulated unlike it, as by
-    /// --distort.
-    #[arg(long, value_enum)]
-    prior: Option<PriorArgument>,
-    /// The real robot is simulated unlike its description: links 5 % and base 20 mm off, drawn by the seed.
-    #[arg(long)]
-    distort: bool,
-    /// The real world is simulated with a sensor noise of 2 mm and a joint noise of 0.1 degrees, and the method is told.
-    #[arg(long)]
-    noise: bool,
-    /// A surface cannot be put back between trials.
-    #[arg(long)]
-    no_reset: bool,
-    /// The painted cells of a surface are seen, not only their share.
-    #[arg(long)]
-    cells: bool,
+    #[command(flatten)]
+    reality: RealityArguments,
+    #[command(flatten)]
+    surface: SurfaceArguments,
     /// How discrepancies are measured.
     #[arg(long, value_enum)]
     metric: Option<Metric>,
@@ -82,48 +69,6 @@ pub(super) struct ProblemArguments {
     read: ReadArguments,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum PriorArgument {
-    /// Nothing is known.
-    None,
-    /// The robot and world as described.
-    Simulator,
-}
-
-/// Makes the simulated real world unlike the description, as `--prior`, `--distort` and `--noise` say.
-fn unlike_the_description(problem: &mut Problem, arguments: &ProblemArguments) {
-    let mut reality = problem.execution.reality.take().unwrap_or_default();
-    let simulator = arguments.prior == Some(PriorArgument::Simulator);
-    if simulator || arguments.distort {
-        reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..reality };
-    }
-    let per_mm = match &problem.world {
-        WorldSpec::ToolPosition(tool) => Some(if tool.unit == "m" { 1e-3 } else { 1.0 }),
-        WorldSpec::Coverage(_) => None,
-    };
-    if arguments.noise {
-        reality.joint_noise_deg = 0.1;
-        reality.sensor_noise = per_mm.map_or(0.0, |mm| 2.0 * mm);
-    }
-    // sensor, and what 0.1 degrees in a few joints do half a metre away
-    let noise = per_mm.map_or(0.0, |mm| 2.5 * mm);
-    if let MethodSpec::Model(model) = &mut problem.execution.method {
-        if arguments.prior.is_some() {
-            model.prior = if simulator { Prior::Simulator } else { Prior::None };
-        }
-        if arguments.noise {
-            model.noise = noise;
-        }
-    }
-    if let MethodSpec::Auto(wishes) = &mut problem.execution.method {
-        wishes.simulator = arguments.prior.map_or(wishes.simulator, |_| simulator);
-        if arguments.noise {
-            wishes.noise = noise;
-        }
-    }
-    problem.execution.reality = Some(reality);
-}
-
 fn joint_value(argument: &str) -> Result<(String, f64), String> {
     let help = "give JOINT=VALUE in rad or m, for example wrist_yaw=-0.785";
     let (joint, value) = argument.split_once('=').ok_or(help)?;
@@ -145,12 +90,7 @@ pub(super) fn read_like(arguments: &ProblemArguments, name: &str) -> anyhow::Res
 }
 
 fn adjusted(mut named: Preset, arguments: &ProblemArguments) -> anyhow::Result<Preset> {
-    if let WorldSpec::Coverage(coverage) = &mut named.problem.world {
-        coverage.resets &= !arguments.no_reset;
-        if arguments.cells {
-            coverage.observes = SurfaceView::Cells;
-        }
-    }
+    arguments.surface.apply(&mut named.problem.world);
     if let Some(method) = &arguments.method
         && !named.select_method(method)
     {
@@ -161,9 +101,7 @@ fn adjusted(mut named: Preset, arguments: &ProblemArguments) -> anyhow::Result<P
     execution.target_discrepancy = arguments.target_discrepancy.or(execution.target_discrepancy);
     execution.max_evaluations_per_goal = arguments.max_evaluations_per_goal.or(execution.max_evaluations_per_goal);
     execution.metric = arguments.metric.unwrap_or(execution.metric);
-    if arguments.prior.is_some() || arguments.noise || arguments.distort {
-        unlike_the_description(&mut named.problem, arguments);
-    }
+    arguments.reality.apply(&mut named.problem);
     named.problem.choose();
     Ok(named)
 }

@@ -218,7 +218,7 @@ fn unbounded(
         MethodSpec::Search(spec) => {
             let coverage = coverage(setup, "search")?;
             let seen = coverage.observes == SurfaceView::Cells;
-            let grid = seen.then(|| Grid { columns: coverage.columns as usize, rows: coverage.rows as usize });
+            let grid = seen.then_some(Grid { columns: coverage.columns as usize, rows: coverage.rows as usize });
             Box::new(SearchIet::new(spec.clone(), coverage.resets, grid, space, &goals, seed))
         }
         MethodSpec::Particle(spec) => {

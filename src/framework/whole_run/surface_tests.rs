@@ -9,11 +9,11 @@ use crate::framework::world::{SurfaceView, WorldSpec};
 use rstest::rstest;
 
 fn search(poses: u32, max_evaluations: u32) -> MethodSpec {
-    MethodSpec::Search(CoverSpec { poses, max_evaluations, ..CoverSpec::default() })
+    MethodSpec::Search(CoverSpec { max_evaluations, poses, ..CoverSpec::default() })
 }
 
 fn particle(particles: u32, poses: u32, max_evaluations: u32) -> MethodSpec {
-    MethodSpec::Particle(ParticleSpec { particles, poses, max_evaluations, ..ParticleSpec::default() })
+    MethodSpec::Particle(ParticleSpec { max_evaluations, particles, poses, ..ParticleSpec::default() })
 }
 
 fn paint(method: MethodSpec, resets: bool, observes: SurfaceView) -> Problem {
@@ -72,7 +72,7 @@ fn a_search_of_one_goal_at_a_time_refuses_what_cannot_be_put_back() {
 
 /// A strip of four cells along one joint, a quarter of its range each.
 fn strip(q: f64) -> u64 {
-    1 << ((q * 4.0).floor().clamp(0.0, 3.0) as u32)
+    1 << [0.25, 0.5, 0.75].iter().filter(|&&edge| q >= edge).count()
 }
 
 #[test]
