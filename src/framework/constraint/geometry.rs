@@ -1,15 +1,16 @@
 //! Convex regions: an axis-aligned box with dilatation, a sphere, a polyhedron by half-spaces, the hull of points.
 //!
-//! A region is open: a point on its boundary is outside, as in the published runs. Box, hull and polyhedron are all
-//! kept as half-spaces `n . p < d` with unit n; the violation of a point is `max_k(n_k . p - d_k)`, the distance to the
-//! farthest violated plane in metres (a lower bound of the distance to the region, equal to it across a face).
+//! A region is open: a point on its boundary is not inside, as in the published runs, and not safely outside either.
+//! Box, hull and polyhedron are all kept as half-spaces `n . p < d` with unit n; `max_k(n_k . p - d_k)` is the distance
+//! to the farthest violated plane in metres (a lower bound of the distance to the region, equal to it across a face),
+//! and inside, negative, the distance to the nearest face.
 //!
 //! Frame: the chain's base frame, metres.
 
 use super::error::ConstraintError;
 use super::hull;
 use super::plane::Plane;
-use super::spec::GeometrySpec;
+use super::spec::{GeometrySpec, Side};
 use nalgebra::Vector3;
 
 /// Smallest violation reported, m (or rad): a point on the boundary violates by this much.
@@ -58,16 +59,20 @@ impl Region {
         }
     }
 
-    /// How far `point` (m) is outside: 0 strictly inside, else at least [`LEAST_VIOLATION`].
+    /// How far `point` (m) is from the `side` it belongs on: 0 strictly there, else at least [`LEAST_VIOLATION`].
     #[inline]
-    pub fn violation(&self, point: &Vector3<f64>) -> f64 {
+    pub fn violation(&self, side: Side, point: &Vector3<f64>) -> f64 {
         let beyond = match self {
             Self::Sphere { center_m, radius_m } => (point - center_m).norm() - radius_m,
             Self::Planes(planes) => {
                 planes.iter().map(|p| p.normal.dot(point) - p.offset_m).fold(f64::NEG_INFINITY, f64::max)
             }
         };
-        if beyond < 0.0 { 0.0 } else { beyond.max(LEAST_VIOLATION) }
+        let wrong = match side {
+            Side::Inside => beyond,
+            Side::Outside => -beyond,
+        };
+        if wrong < 0.0 { 0.0 } else { wrong.max(LEAST_VIOLATION) }
     }
 }
 
@@ -139,7 +144,7 @@ mod tests {
     fn a_cube_is_the_same_in_three_descriptions(#[case] point: [f64; 3], #[case] violation: f64) {
         let hull = GeometrySpec::Hull { points_m: corners(), dilatation_m: 0.0 };
         for spec in [unit_box(0.0), as_half_spaces(), hull] {
-            let found = Region::new(&spec).unwrap().violation(&Vector3::from(point));
+            let found = Region::new(&spec).unwrap().violation(Side::Inside, &Vector3::from(point));
             assert!((found - violation).abs() < 1e-12, "{spec:?}: {found}");
             assert_eq!(found > 0.0, violation > 0.0, "{spec:?}");
         }
@@ -148,18 +153,26 @@ mod tests {
     #[test]
     fn dilatation_moves_every_face() {
         let region = Region::new(&unit_box(0.1)).unwrap();
-        assert_eq!(region.violation(&Vector3::new(1.05, -0.05, 0.5)), 0.0);
-        assert!((region.violation(&Vector3::new(1.3, 0.5, 0.5)) - 0.2).abs() < 1e-12);
+        assert_eq!(region.violation(Side::Inside, &Vector3::new(1.05, -0.05, 0.5)), 0.0);
+        assert!((region.violation(Side::Inside, &Vector3::new(1.3, 0.5, 0.5)) - 0.2).abs() < 1e-12);
         assert!(Region::new(&unit_box(-0.5)).is_err(), "a box shrunk to nothing has no inside");
+    }
+
+    #[test]
+    fn outside_is_measured_from_the_nearest_face() {
+        let region = Region::new(&unit_box(0.0)).unwrap();
+        let depth = |x: f64| region.violation(Side::Outside, &Vector3::new(x, 0.5, 0.5));
+        assert_eq!((depth(1.1), depth(1.0)), (0.0, LEAST_VIOLATION));
+        assert!((depth(0.9) - 0.1).abs() < 1e-12 && (depth(0.5) - 0.5).abs() < 1e-12);
     }
 
     #[test]
     fn a_sphere_is_open() {
         let spec = GeometrySpec::Sphere { center_m: [1.0, 2.0, 3.0], radius_m: 2.0 };
         let region = Region::new(&spec).unwrap();
-        assert_eq!(region.violation(&Vector3::new(1.0, 2.0, 4.999)), 0.0);
-        assert_eq!(region.violation(&Vector3::new(1.0, 2.0, 5.0)), LEAST_VIOLATION);
-        assert!((region.violation(&Vector3::new(4.0, 2.0, 3.0)) - 1.0).abs() < 1e-12);
+        assert_eq!(region.violation(Side::Inside, &Vector3::new(1.0, 2.0, 4.999)), 0.0);
+        assert_eq!(region.violation(Side::Inside, &Vector3::new(1.0, 2.0, 5.0)), LEAST_VIOLATION);
+        assert!((region.violation(Side::Inside, &Vector3::new(4.0, 2.0, 3.0)) - 1.0).abs() < 1e-12);
     }
 
     #[rstest]
@@ -180,8 +193,8 @@ mod tests {
             for spec in [unit_box(0.3), GeometrySpec::Sphere { center_m: [0.5; 3], radius_m: 1.5 }] {
                 let region = Region::new(&spec).unwrap();
                 let (a, b) = (Vector3::from(a), Vector3::from(b));
-                let between = region.violation(&(a * t + b * (1.0 - t)));
-                prop_assert!(between <= region.violation(&a).max(region.violation(&b)) + 1e-9);
+                let between = region.violation(Side::Inside, &(a * t + b * (1.0 - t)));
+                prop_assert!(between <= region.violation(Side::Inside, &a).max(region.violation(Side::Inside, &b)) + 1e-9);
             }
         }
     }

@@ -25,6 +25,6 @@ pub use error::ConstraintError;
 pub use set::{Constraints, Proposal};
 pub use spec::{
     ChainJoint, ConstraintSpec, GeometrySpec, HalfSpace, HandlingSpec, JointStepSpec, OnInfeasible, PenaltyForm,
-    PenaltyKind, PenaltySpec, PointSpec, PopulationVelocitySpec, RegionSpec,
+    PenaltyKind, PenaltySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side,
 };
 pub use state::ConstrainedState;

@@ -1,12 +1,12 @@
 //! All constraints of a job together: how far a candidate is from satisfying each.
 //!
-//! A violation is 0 where satisfied and positive where not: metres outside a region, radians (or metres) above a step
-//! limit. A candidate is feasible exactly when every violation is 0.
+//! A violation is 0 where satisfied and positive where not: metres on the wrong side of a region's boundary, radians (or
+//! metres) above a step limit. A candidate is feasible exactly when every violation is 0.
 
 use super::error::ConstraintError;
 use super::geometry::{LEAST_VIOLATION, Region, finite, positive};
 use super::point::Point;
-use super::spec::ConstraintSpec;
+use super::spec::{ConstraintSpec, Side};
 use crate::framework::robot::{Chain, RobotModel, RobotSpec};
 
 /// A candidate and what its constraints refer to; joints in gene order, rad or m.
@@ -22,7 +22,7 @@ pub struct Proposal<'a> {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Constraint {
-    Region { region: Region, point: Box<Point> },
+    Region { region: Region, side: Side, point: Box<Point> },
     PopulationVelocity { limit: f64 },
     JointStep { limit: f64, start: Option<Vec<f64>> },
 }
@@ -45,6 +45,7 @@ impl Constraints {
         let prepare = |spec: &ConstraintSpec| match spec {
             ConstraintSpec::Region(spec) => Ok(Constraint::Region {
                 region: Region::new(&spec.geometry)?,
+                side: spec.side,
                 point: Box::new(Point::new(&spec.point, model, robot, chain)?),
             }),
             ConstraintSpec::PopulationVelocity(spec) => {
@@ -111,7 +112,7 @@ impl Constraints {
 impl Constraint {
     fn violation(&self, proposal: &Proposal<'_>) -> f64 {
         match self {
-            Self::Region { region, point } => region.violation(&point.position(proposal.joints)),
+            Self::Region { region, side, point } => region.violation(*side, &point.position(proposal.joints)),
             Self::PopulationVelocity { limit } => {
                 let distance = |origin: &[f64]| proposal.joints.iter().zip(origin).map(|(c, o)| (c - o).abs()).sum();
                 let nearest = proposal.origins.iter().flatten().map(|o| distance(o)).reduce(f64::min);
@@ -172,7 +173,8 @@ mod tests {
     #[test]
     fn violations_come_in_order() {
         let geometry = GeometrySpec::Sphere { center_m: [0.0, -0.338, 0.7982], radius_m: 0.5 };
-        let region = ConstraintSpec::Region(RegionSpec { geometry, point: fixtures::constraint_point() });
+        let region =
+            ConstraintSpec::Region(RegionSpec { geometry, side: Side::Inside, point: fixtures::constraint_point() });
         let velocity = ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad: 1.0 });
         let both = set(&[region, velocity]);
         let found: Vec<f64> = both.violations(&alone(&[0.0; 3])).collect();
@@ -190,7 +192,8 @@ mod tests {
         let message = refuse(ConstraintSpec::JointStep(JointStepSpec { limit_rad: 1.0, start: Some(vec![0.0; 2]) }));
         assert!(message.contains('2') && message.contains('3'), "{message}");
         let geometry = GeometrySpec::Sphere { center_m: [0.0; 3], radius_m: f64::INFINITY };
-        let message = refuse(ConstraintSpec::Region(RegionSpec { geometry, point: PointSpec::Tool }));
+        let message =
+            refuse(ConstraintSpec::Region(RegionSpec { geometry, side: Side::Inside, point: PointSpec::Tool }));
         assert!(message.contains("radius_m"), "{message}");
     }
 }

@@ -15,18 +15,39 @@ pub enum ConstraintSpec {
     JointStep(JointStepSpec),
 }
 
-/// A point of the robot and the region it stays in.
+/// A point of the robot and the region it stays in, or out of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegionSpec {
     /// The region, in the chain's base frame.
     pub geometry: GeometrySpec,
-    /// Which point stays in it; the tool centre point when absent.
+    /// On which side of its boundary the point stays.
+    #[serde(default, skip_serializing_if = "Side::is_inside")]
+    pub side: Side,
+    /// Which point it is; the tool centre point when absent.
     #[serde(default)]
     pub point: PointSpec,
 }
 
-/// A convex region in the base frame; its boundary is outside.
+/// A side of a region's boundary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// The point stays in the region: a workspace.
+    #[default]
+    Inside,
+    /// The point stays out of it: an obstacle, a person's place.
+    Outside,
+}
+
+impl Side {
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+    fn is_inside(&self) -> bool {
+        *self == Self::Inside
+    }
+}
+
+/// A convex region in the base frame; its boundary is on neither side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 pub enum GeometrySpec {

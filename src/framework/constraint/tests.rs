@@ -11,14 +11,18 @@ use crate::framework::world;
 use proptest::prelude::*;
 
 /// Regions that hold the first wax goals and cut the reachable space in different ways.
-fn geometries() -> [ConstraintSpec; 6] {
-    let region = |geometry| ConstraintSpec::Region(RegionSpec { geometry, point: fixtures::constraint_point() });
+fn geometries() -> [ConstraintSpec; 7] {
+    let bounded = |side| {
+        move |geometry| ConstraintSpec::Region(RegionSpec { geometry, side, point: fixtures::constraint_point() })
+    };
+    let (region, obstacle) = (bounded(Side::Inside), bounded(Side::Outside));
     let (lower_m, upper_m) = ([0.235, -0.62, 0.292], [0.463, -0.435, 0.306]);
     let corners = (0..8).map(|c: usize| [0, 1, 2].map(|k| if c >> k & 1 == 0 { lower_m[k] } else { upper_m[k] }));
     let half = |normal, offset_m| HalfSpace { normal, offset_m };
     [
         region(GeometrySpec::Box { lower_m, upper_m, dilatation_m: 0.2 }),
         region(GeometrySpec::Sphere { center_m: [0.35, -0.5, 0.3], radius_m: 0.3 }),
+        obstacle(GeometrySpec::Box { lower_m: [0.1, -0.7, 0.0], upper_m: [0.3, -0.5, 0.4], dilatation_m: 0.0 }),
         region(GeometrySpec::Hull { points_m: corners.collect(), dilatation_m: 0.15 }),
         region(GeometrySpec::Polyhedron {
             half_spaces: vec![half([-1.0, 0.0, 0.0], -0.1), half([1.0, 1.0, 1.0], 0.5)],
@@ -230,7 +234,7 @@ fn children_of_a_velocity_limit_stay_near_an_ancestor() {
 fn nothing_feasible_is_told_and_does_not_hang() {
     let nowhere = || {
         let geometry = GeometrySpec::Sphere { center_m: [9.0, 9.0, 9.0], radius_m: 0.1 };
-        ConstraintSpec::Region(RegionSpec { geometry, point: PointSpec::Tool })
+        ConstraintSpec::Region(RegionSpec { geometry, side: Side::Inside, point: PointSpec::Tool })
     };
     for handling in [hard(), soft()].concat() {
         for method in METHODS {

@@ -123,3 +123,27 @@ fn refuses_what_only_populations_can_do(#[case] execution: Value, #[case] told: 
     let error = Iet::new(&refused, 1).err().unwrap().to_string();
     assert!(error.contains(told), "{error}");
 }
+
+#[rstest]
+#[case("wax", "model")]
+#[case("wax", "broyden")]
+#[case("paint", "search")]
+#[case("paint", "sst")]
+fn no_executed_pose_is_in_an_obstacle(#[case] preset: &str, #[case] name: &str) {
+    let (lower, upper) = ([0.2, -0.65, 0.2], [0.7, -0.45, 0.7]);
+    let geometry = json!({"shape": "box", "lower_m": lower, "upper_m": upper});
+    let obstacle = json!({"constraints": [{"kind": "region", "side": "outside", "geometry": geometry}]});
+    let is_in = |problem: &Problem| {
+        let chain = Iet::new(problem, 7).unwrap().chain().clone();
+        let (poses, _) = executed(problem, 7, 60);
+        poses
+            .iter()
+            .filter(|(_, pose)| {
+                let tool = tool_position(&chain, pose);
+                (0..3).all(|k| lower[k] < tool[k] && tool[k] < upper[k])
+            })
+            .count()
+    };
+    assert_eq!(is_in(&problem(preset, json!({ "name": name }), &obstacle)), 0);
+    assert!(is_in(&problem(preset, json!({ "name": name }), &json!({}))) > 0, "nothing goes there anyway");
+}

@@ -6,7 +6,7 @@
 
 use super::patch::merge;
 use super::{CellSpec, ExperimentSpec, InvalidRule};
-use crate::framework::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec};
+use crate::framework::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -171,7 +171,7 @@ impl PaperTables {
         }
         let geometry = cell.box_m.map(|corners| {
             let geometry = GeometrySpec::Box { lower_m: corners.lower, upper_m: corners.upper, dilatation_m: 0.0 };
-            ConstraintSpec::Region(RegionSpec { geometry, point: self.constrained_point.clone() })
+            ConstraintSpec::Region(RegionSpec { geometry, side: Side::Inside, point: self.constrained_point.clone() })
         });
         let limit = cell.velocity_deg.map(f64::to_radians);
         let velocity = limit.map(|limit_rad| ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad }));
