@@ -77,7 +77,7 @@ impl<'a> Belief<'a> {
         let family = if space.axes.iter().any(|a| a.revolute) { Family::Trig } else { Family::Se };
         let d = space.len();
         Some(Self {
-            process: Process::fit(poses, &residuals, family, scale.max(1e-9), noise)?,
+            process: Process::fit(&poses, &residuals, family, scale.max(1e-9), noise)?,
             prior,
             average,
             mean: vec![0.0; m],
@@ -127,11 +127,22 @@ impl<'a> Belief<'a> {
         squared_distance(&self.mean, aim.goal) + aim.caution * aim.goal.len() as f64 * variance
     }
 
-    /// As [`Belief::score`], with gradient and Gauss-Newton Hessian.
-    pub fn score_with_slopes(&mut self, pose: &[f64], aim: Aim, local: &mut Local) {
+    /// As [`Belief::score`], with gradient and Gauss-Newton Hessian, where it is less than `bound`: true then. Where it
+    /// is not `local` stays as it is, and nothing is computed that was not needed to know.
+    pub fn score_with_slopes(&mut self, pose: &[f64], aim: Aim, bound: f64, local: &mut Local) -> bool {
         let (d, m) = (pose.len(), aim.goal.len());
-        let variance = self.process.predict_with_slopes(pose, &mut self.mean, &mut self.jacobian, &mut self.slope);
-        self.add_prior(pose);
+        let weight = aim.caution * m as f64;
+        self.predict_mean(pose);
+        let miss = squared_distance(&self.mean, aim.goal);
+        if weight >= 0.0 && miss >= bound {
+            return false;
+        }
+        let value = miss + weight * self.variance_there();
+        if value.is_nan() || value >= bound {
+            return false;
+        }
+        local.value = value;
+        self.process.slopes_there(&mut self.jacobian, &mut self.slope);
         if let Some(prior) = self.prior.as_deref_mut() {
             self.moved.copy_from_slice(pose);
             for (j, &joint) in pose.iter().enumerate() {
@@ -145,8 +156,6 @@ impl<'a> Belief<'a> {
                 }
             }
         }
-        let weight = aim.caution * m as f64;
-        local.value = squared_distance(&self.mean, aim.goal) + weight * variance;
         for j in 0..d {
             let pull: f64 = (0..m).map(|o| self.jacobian[o * d + j] * (self.mean[o] - aim.goal[o])).sum();
             local.gradient[j] = 2.0 * pull + weight * self.slope[j];
@@ -156,6 +165,7 @@ impl<'a> Belief<'a> {
                 local.hessian[j * d + i] = 2.0 * h;
             }
         }
+        true
     }
 }
 

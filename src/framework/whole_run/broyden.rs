@@ -218,13 +218,14 @@ impl Broyden {
             (dq, residual)
         };
         let mut joints = from.clone();
-        refine(&around, &mut joints, STEPS, &mut |q, local: &mut Local| {
+        refine(&around, &mut joints, STEPS, &mut |q, bound, local: &mut Local| {
             let (dq, residual) = residual(q);
             local.value = residual.norm_squared() + weight * dq.norm_squared();
             let gradient = (self.jacobian.tr_mul(&residual) + weight * &dq) * 2.0;
             local.gradient.copy_from_slice(gradient.as_slice());
             let hessian = (&squares + DMatrix::identity(q.len(), q.len()) * weight) * 2.0;
             local.hessian.copy_from_slice(hessian.as_slice());
+            local.value < bound
         });
         self.space.retreat(from, &mut joints);
         (residual(&joints).1.norm() <= enough).then_some(joints)

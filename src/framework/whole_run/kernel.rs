@@ -29,14 +29,6 @@ pub struct Poses {
     rows: Vec<[f64; 3]>,
 }
 
-/// Scratch of one evaluation.
-#[derive(Debug, Clone, Default)]
-pub struct Factors {
-    at: Vec<[f64; 3]>,
-    factor: Vec<f64>,
-    slope: Vec<f64>,
-}
-
 impl Poses {
     /// No poses yet, over `space`.
     #[must_use]
@@ -75,84 +67,39 @@ impl Poses {
         self.rows.is_empty()
     }
 
+    /// The d numbers a joint's positions are multiplied with before they are compared.
+    #[must_use]
+    pub fn scale(&self) -> &[f64] {
+        &self.scale
+    }
+
+    /// Scaled position, cosine and sine of joint `j` in each pose.
+    pub fn joint(&self, j: usize) -> impl Iterator<Item = [f64; 3]> {
+        self.rows.iter().skip(j).step_by(self.joints.max(1)).copied()
+    }
+
+    /// The factor that joint `j` puts into `kernel`.
+    #[must_use]
+    pub fn factor(&self, kernel: Kernel, j: usize) -> Kernel {
+        match kernel {
+            Kernel::Trig(_) if !self.revolute[j] => Kernel::Se(STROKE_LENGTH),
+            _ => kernel,
+        }
+    }
+
     /// Kernel between poses `a` and `b` of the log.
     #[must_use]
     pub fn between(&self, kernel: Kernel, a: usize, b: usize) -> f64 {
         let rows = |i: usize| &self.rows[i * self.joints..(i + 1) * self.joints];
-        self.product(kernel, rows(a), rows(b))
-    }
-
-    fn product(&self, kernel: Kernel, a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
-        let mut k = 1.0;
-        for ((x, y), &revolute) in a.iter().zip(b).zip(&self.revolute) {
-            k *= match kernel {
-                Kernel::Trig(h) if revolute => (1.0 + h * (x[1] * y[1] + x[2] * y[2])) / (1.0 + h),
-                Kernel::Trig(_) => se(x[0] - y[0], STROKE_LENGTH),
-                Kernel::Se(length) => se(x[0] - y[0], length),
-            };
-        }
-        k
-    }
-
-    fn prepare(&self, pose: &[f64], scratch: &mut Factors) {
-        scratch.at.clear();
-        for (value, scale) in pose.iter().zip(&self.scale) {
-            let x = value * scale;
-            let (sin, cos) = x.sin_cos();
-            scratch.at.push([x, cos, sin]);
-        }
-    }
-
-    /// Kernel of `pose` with each pose of the log, into `k[0..n]`.
-    pub fn with(&self, kernel: Kernel, pose: &[f64], scratch: &mut Factors, k: &mut [f64]) {
-        self.prepare(pose, scratch);
-        for (value, row) in k.iter_mut().zip(self.rows.chunks_exact(self.joints)) {
-            *value = self.product(kernel, &scratch.at, row);
-        }
-    }
-
-    /// As [`Poses::with`], and the slopes `dk[i * d + j] = d k_i / d q_j`.
-    pub fn with_slopes(&self, kernel: Kernel, pose: &[f64], scratch: &mut Factors, k: &mut [f64], dk: &mut [f64]) {
-        self.prepare(pose, scratch);
-        let d = self.joints;
-        scratch.factor.resize(d, 0.0);
-        scratch.slope.resize(d, 0.0);
-        for (i, row) in self.rows.chunks_exact(d).enumerate() {
-            for (j, &y) in row.iter().enumerate() {
-                let x = scratch.at[j];
-                let (factor, slope) = match kernel {
-                    Kernel::Trig(h) if self.revolute[j] => {
-                        let cos = x[1] * y[1] + x[2] * y[2];
-                        let sin = x[2] * y[1] - x[1] * y[2];
-                        ((1.0 + h * cos) / (1.0 + h), -h * sin / (1.0 + h))
-                    }
-                    Kernel::Trig(_) => se_slope(x[0] - y[0], STROKE_LENGTH),
-                    Kernel::Se(length) => se_slope(x[0] - y[0], length),
-                };
-                scratch.factor[j] = factor;
-                scratch.slope[j] = slope * self.scale[j];
-            }
-            // prefix products forward, suffix products backward: no division by a factor that may be 0
-            let mut before = 1.0;
-            for j in 0..d {
-                dk[i * d + j] = before * scratch.slope[j];
-                before *= scratch.factor[j];
-            }
-            k[i] = before;
-            let mut after = 1.0;
-            for j in (0..d).rev() {
-                dk[i * d + j] *= after;
-                after *= scratch.factor[j];
-            }
-        }
+        let factor = |(j, (x, y)): (usize, (&[f64; 3], &[f64; 3]))| match self.factor(kernel, j) {
+            Kernel::Trig(h) => (1.0 + h * (x[1] * y[1] + x[2] * y[2])) / (1.0 + h),
+            Kernel::Se(length) => se(x[0] - y[0], length),
+        };
+        rows(a).iter().zip(rows(b)).enumerate().map(factor).product()
     }
 }
 
-fn se(difference: f64, length: f64) -> f64 {
+/// The squared exponential of a difference.
+pub(super) fn se(difference: f64, length: f64) -> f64 {
     (-difference * difference / (2.0 * length * length)).exp()
-}
-
-fn se_slope(difference: f64, length: f64) -> (f64, f64) {
-    let k = se(difference, length);
-    (k, -difference / (length * length) * k)
 }

@@ -11,6 +11,7 @@
 
 mod belief;
 pub mod broyden;
+pub mod columns;
 pub mod cover;
 pub mod kernel;
 pub mod model;

@@ -5,7 +5,8 @@
 //! `-1/2 sum_o y_o' K^-1 y_o - m/2 log |K|`, plus weak log-normal priors on the shape h and on c = a / s0.
 //! Source: C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, ch. 2 and 5.
 
-use super::kernel::{Factors, Kernel, Poses};
+use super::columns::Columns;
+use super::kernel::{Kernel, Poses};
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
 /// Ridge relative to the amplitude: what makes the Cholesky factorisation safe without noise.
@@ -47,18 +48,16 @@ fn log_prior(value: f64, centre: f64) -> f64 {
 /// A fitted process.
 #[derive(Debug, Clone)]
 pub struct Process {
-    poses: Poses,
     kernel: Kernel,
-    outputs: usize,
+    columns: Columns,
     variance: f64,
-    /// K^-1 Y / a^2-free form: `C'^-1 Y`, n x m row-major.
+    /// K^-1 Y / a^2-free form: `C'^-1 Y`, n x m column-major.
     alpha: Vec<f64>,
     /// Inverse of the lower Cholesky factor of C', row-major, n x n.
     inverse: Vec<f64>,
-    scratch: Factors,
-    k: Vec<f64>,
-    dk: Vec<f64>,
+    /// `inverse k` at the pose asked for last.
     whitened: Vec<f64>,
+    /// `C'^-1 k` there.
     weights: Vec<f64>,
 }
 
@@ -77,12 +76,12 @@ impl Process {
     /// Fits `residuals` (n x m) at `poses`; `scale` is s0 and `noise` the standard deviation s, features' unit.
     /// None when no kernel matrix could be factorised (poses that are not finite).
     #[must_use]
-    pub fn fit(poses: Poses, residuals: &DMatrix<f64>, family: Family, scale: f64, noise: f64) -> Option<Self> {
+    pub fn fit(poses: &Poses, residuals: &DMatrix<f64>, family: Family, scale: f64, noise: f64) -> Option<Self> {
         let n = poses.len();
         let m = residuals.ncols();
         let mut best: Option<Choice> = None;
         for (kernel, shape_prior) in family.members() {
-            let correlation = DMatrix::from_fn(n, n, |a, b| poses.between(kernel, a, b));
+            let correlation = lower_triangle(n, |a, b| poses.between(kernel, a, b));
             let mut shared: Option<Factorized> = None;
             for c in AMPLITUDES {
                 let variance = (c * scale).powi(2).max(f64::MIN_POSITIVE);
@@ -107,16 +106,12 @@ impl Process {
         let inverse = choice.cholesky.l().solve_lower_triangular(&DMatrix::identity(n, n))?;
         Some(Self {
             kernel: choice.kernel,
-            outputs: m,
+            columns: Columns::new(poses, choice.kernel),
             variance: choice.variance,
-            alpha: choice.alpha.transpose().as_slice().to_vec(),
+            alpha: choice.alpha.as_slice().to_vec(),
             inverse: inverse.transpose().as_slice().to_vec(),
-            scratch: Factors::default(),
-            k: vec![0.0; n],
-            dk: vec![0.0; n * poses.joints()],
             whitened: vec![0.0; n],
             weights: vec![0.0; n],
-            poses,
         })
     }
 
@@ -140,67 +135,43 @@ impl Process {
 
     /// As [`Process::predict`], without the variance: n m operations instead of n^2.
     pub fn predict_mean(&mut self, pose: &[f64], mean: &mut [f64]) {
-        self.poses.with(self.kernel, pose, &mut self.scratch, &mut self.k);
-        self.mean(mean);
+        self.columns.ask(pose);
+        let k = &self.columns.k;
+        for (value, alpha) in mean.iter_mut().zip(self.alpha.chunks_exact(k.len())) {
+            *value = dot(k, alpha);
+        }
     }
 
     /// The variance of one output at the pose asked for last.
     pub fn variance_there(&mut self) -> f64 {
-        self.whiten()
-    }
-
-    fn mean(&self, mean: &mut [f64]) {
-        mean.fill(0.0);
-        for (k, row) in self.k.iter().zip(self.alpha.chunks_exact(self.outputs)) {
-            for (value, alpha) in mean.iter_mut().zip(row) {
-                *value += k * alpha;
-            }
-        }
-    }
-
-    fn whiten(&mut self) -> f64 {
-        let n = self.k.len();
+        let k = &self.columns.k;
+        let n = k.len();
         let mut explained = 0.0;
-        for i in 0..n {
-            let row = &self.inverse[i * n..=i * n + i];
-            let w: f64 = dot(row, &self.k[..=i]);
-            self.whitened[i] = w;
+        for (i, (row, whitened)) in self.inverse.chunks_exact(n).zip(&mut self.whitened).enumerate() {
+            let w = dot(&row[..=i], &k[..=i]);
+            *whitened = w;
             explained += w * w;
         }
         self.variance * (1.0 - explained).max(0.0)
     }
 
-    /// As [`Process::predict`], with `jacobian[o * d + j]` and `slope[j]`, the gradient of the variance.
-    pub fn predict_with_slopes(
-        &mut self,
-        pose: &[f64],
-        mean: &mut [f64],
-        jacobian: &mut [f64],
-        slope: &mut [f64],
-    ) -> f64 {
-        let (n, d, m) = (self.k.len(), pose.len(), self.outputs);
-        self.poses.with_slopes(self.kernel, pose, &mut self.scratch, &mut self.k, &mut self.dk);
-        self.mean(mean);
-        let variance = self.whiten();
+    /// At the pose whose variance was asked for last: `jacobian[o * d + j]` of the mean and `slope[j]`, the gradient of
+    /// the variance.
+    pub fn slopes_there(&mut self, jacobian: &mut [f64], slope: &mut [f64]) {
+        self.columns.slopes_there();
+        let (n, d) = (self.whitened.len(), slope.len());
         self.weights.fill(0.0);
-        for i in 0..n {
-            let w = self.whitened[i];
-            for (weight, l) in self.weights[..=i].iter_mut().zip(&self.inverse[i * n..=i * n + i]) {
+        for (i, (row, &w)) in self.inverse.chunks_exact(n).zip(&self.whitened).enumerate() {
+            for (weight, l) in self.weights[..=i].iter_mut().zip(row) {
                 *weight += w * l;
             }
         }
-        jacobian.fill(0.0);
-        slope.fill(0.0);
-        for i in 0..n {
-            for j in 0..d {
-                let dk = self.dk[i * d + j];
-                slope[j] -= 2.0 * self.variance * self.weights[i] * dk;
-                for o in 0..m {
-                    jacobian[o * d + j] += self.alpha[i * m + o] * dk;
-                }
+        for (j, dk) in self.columns.dk.chunks_exact(n).enumerate() {
+            slope[j] = -2.0 * self.variance * dot(dk, &self.weights);
+            for (o, alpha) in self.alpha.chunks_exact(n).enumerate() {
+                jacobian[o * d + j] = dot(dk, alpha);
             }
         }
-        variance
     }
 }
 
@@ -215,6 +186,11 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
+}
+
+/// The n x n matrix of `entry(row, column)` below and on the diagonal: all that a Cholesky factorisation reads.
+fn lower_triangle(n: usize, entry: impl Fn(usize, usize) -> f64) -> DMatrix<f64> {
+    DMatrix::from_fn(n, n, |a, b| if b <= a { entry(a, b) } else { 0.0 })
 }
 
 fn factorize(correlation: &DMatrix<f64>, ridge: f64) -> Option<Cholesky<f64, Dyn>> {

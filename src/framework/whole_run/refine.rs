@@ -24,13 +24,18 @@ impl Local {
     }
 }
 
+/// What is minimised: at a pose, where its value is less than the bound, fills in the rest and says true.
+pub type Function<'a> = dyn FnMut(&[f64], f64, &mut Local) -> bool + 'a;
+
 /// Moves `pose` downhill for at most `steps` evaluations of `function`; returns the value reached.
-pub fn refine(space: &Space, pose: &mut [f64], steps: usize, function: &mut dyn FnMut(&[f64], &mut Local)) -> f64 {
+pub fn refine(space: &Space, pose: &mut [f64], steps: usize, function: &mut Function<'_>) -> f64 {
     let d = pose.len();
     let mut here = Local::new(d);
     let mut there = Local::new(d);
     let mut trial = pose.to_vec();
-    function(pose, &mut here);
+    if !function(pose, f64::INFINITY, &mut here) {
+        return f64::INFINITY;
+    }
     let mut damping = 1e-3;
     for _ in 0..steps {
         let Some(step) = damped_step(space, pose, &here, damping) else { break };
@@ -42,8 +47,7 @@ pub fn refine(space: &Space, pose: &mut [f64], steps: usize, function: &mut dyn 
         if moved < 1e-7 {
             break;
         }
-        function(&trial, &mut there);
-        if there.value < here.value {
+        if function(&trial, here.value, &mut there) {
             let gain = here.value - there.value;
             pose.copy_from_slice(&trial);
             std::mem::swap(&mut here, &mut there);

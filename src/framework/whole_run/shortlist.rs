@@ -6,7 +6,7 @@
 
 use super::FeatureMap;
 use super::belief::{Aim, Belief, distance, squared_distance};
-use super::refine::refine;
+use super::refine::{Local, refine};
 use super::space::Space;
 use rand_chacha::ChaCha8Rng;
 
@@ -78,7 +78,8 @@ impl Starts {
         }
         let refined = best.rows.into_iter().map(|(_, start)| {
             let mut pose = start.clone();
-            refine(space, &mut pose, REFINE_STEPS, &mut |q, local| belief.score_with_slopes(q, aim, local));
+            let mut score = |q: &[f64], bound: f64, local: &mut Local| belief.score_with_slopes(q, aim, bound, local);
+            refine(space, &mut pose, REFINE_STEPS, &mut score);
             space.retreat(&start, &mut pose);
             pose
         });

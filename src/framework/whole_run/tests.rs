@@ -1,6 +1,7 @@
 //! The methods on whole problems: evaluations and discrepancy in bounds, resumed runs, kernels against differences.
 
-use super::kernel::{Factors, Kernel, Poses};
+use super::columns::Columns;
+use super::kernel::{Kernel, Poses};
 use super::process::{Family, Process};
 use super::{Axis, BroydenSpec, ModelIet, ModelSpec, Proposal, Space, Trial, WholeRun};
 use crate::framework::execution::{Iet, IetState, Problem, RunResult, run, simulate};
@@ -24,19 +25,24 @@ fn kernel_slopes_agree_with_differences() {
     let mut poses = Poses::new(&space);
     poses.push(&[0.3, -0.2, 1.1]);
     poses.push(&[-0.9, 0.7, 0.0]);
-    let (mut k, mut dk, mut scratch) = (vec![0.0; 2], vec![0.0; 6], Factors::default());
     let at = [0.5, 0.1, -0.4];
+    poses.push(&at);
     for kernel in [Kernel::Trig(2.0), Kernel::Se(0.8)] {
-        poses.with_slopes(kernel, &at, &mut scratch, &mut k, &mut dk);
+        let mut columns = Columns::new(&poses, kernel);
+        let mut there = |j: usize, by: f64| {
+            columns.ask(&std::array::from_fn::<f64, 3, _>(|i| if i == j { at[i] + by } else { at[i] }));
+            columns.slopes_there();
+            (columns.k.clone(), columns.dk.clone())
+        };
+        let (k, dk) = there(0, 0.0);
+        for (i, k) in k.iter().enumerate() {
+            assert!((k - poses.between(kernel, 2, i)).abs() < 1e-15, "{kernel:?} pose {i}");
+        }
         for j in 0..3 {
-            let mut ahead = vec![0.0; 2];
-            let mut behind = vec![0.0; 2];
-            let moved = |by: f64| std::array::from_fn::<f64, 3, _>(|i| if i == j { at[i] + by } else { at[i] });
-            poses.with(kernel, &moved(1e-6), &mut scratch, &mut ahead);
-            poses.with(kernel, &moved(-1e-6), &mut scratch, &mut behind);
-            for i in 0..2 {
+            let (ahead, behind) = (there(j, 1e-6).0, there(j, -1e-6).0);
+            for i in 0..3 {
                 let difference = (ahead[i] - behind[i]) / 2e-6;
-                assert!((difference - dk[i * 3 + j]).abs() < 1e-8, "{kernel:?} pose {i} joint {j}");
+                assert!((difference - dk[j * 3 + i]).abs() < 1e-8, "{kernel:?} pose {i} joint {j}");
             }
         }
     }
@@ -51,7 +57,7 @@ fn the_process_goes_through_its_data_and_is_unsure_elsewhere() {
         poses.push(q);
     }
     let residuals = DMatrix::from_row_slice(3, 2, &[1.0, -2.0, 3.0, 0.5, -4.0, 1.0]);
-    let mut process = Process::fit(poses, &residuals, Family::Trig, 3.0, 0.0).unwrap();
+    let mut process = Process::fit(&poses, &residuals, Family::Trig, 3.0, 0.0).unwrap();
     let mut mean = [0.0; 2];
     for (i, q) in data.iter().enumerate() {
         let variance = process.predict(q, &mut mean);
