@@ -13,6 +13,7 @@ mod error;
 pub mod experiments;
 pub mod id;
 pub mod jobs;
+mod null_as_infinite;
 mod page;
 pub mod ports;
 pub mod recognitions;

@@ -2,7 +2,7 @@
 
 use crate::app::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::trajectories::TrajectoryView;
-use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, Timestamp, out_of_bounds};
+use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, Timestamp, null_as_infinite, out_of_bounds};
 use crate::framework::Feature;
 use crate::framework::optimizer::{Provenance, StopReason, Tally};
 use crate::framework::recognition::Metric;
@@ -34,6 +34,7 @@ pub struct RunView {
     /// Evaluations of all goals.
     pub evaluations: u64,
     /// Discrepancy of the whole observation, features' unit.
+    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
     /// What the last goal's winner really does, where `discrepancy` is the value of one that was never executed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -76,12 +77,14 @@ pub struct RunGoal {
     /// Evaluations of this goal.
     pub evaluations: u64,
     /// Discrepancy of the observation up to this goal, features' unit.
+    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
     /// Why the goal ended.
     pub stop_reason: StopReason,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// What was observed there.
+    #[serde(deserialize_with = "null_as_infinite::numbers")]
     pub observation: Vec<f64>,
     /// What was asked for.
     pub goal: Vec<f64>,
@@ -141,6 +144,7 @@ pub struct ConvergencePoint {
     /// Evaluations since the run began.
     pub evaluations: u64,
     /// Best discrepancy of the observation up to this goal.
+    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
 }
 

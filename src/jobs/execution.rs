@@ -7,7 +7,7 @@
 
 use super::checkpoint::Checkpoint;
 use super::held::{Gone, Held};
-use super::outcome::{Marks, distance, finished_run};
+use super::outcome::{Marks, check_finite, distance, finished_run};
 use crate::app::jobs::{EventData, ExecutionWork, GoalProgress, JobProgress, JobView, TrialProgress};
 use crate::app::ports::{Advance, NewRun, Transition};
 use crate::evaluate::{Pace, Simulation};
@@ -109,6 +109,7 @@ impl<'a> Attempt<'a> {
                 let ended = progress.results.get(told..).unwrap_or_default();
                 for goal in ended {
                     let goal = self.goal(goal);
+                    check_finite(goal.index, goal.discrepancy, &goal.observation).map_err(not_finite)?;
                     self.events.push(EventData::Goal { goal });
                 }
                 told = progress.results.len();
@@ -213,6 +214,9 @@ impl<'a> Attempt<'a> {
         let marks = Marks { run: ports.ids.uuid(), trajectory: ports.ids.uuid(), created_at: ports.clock.now() };
         let (job, work, repetition) = (self.job.id.clone(), self.work.clone(), self.saved.repetition);
         let run = blocking(move || finished_run(simulation, &work, &job, repetition, marks)).await??;
+        for goal in &run.goals.goals {
+            check_finite(goal.index, goal.discrepancy, &goal.observation).map_err(not_finite)?;
+        }
         let view = &run.view;
         self.events.push(EventData::Run {
             run: view.id.clone(),
@@ -308,6 +312,10 @@ impl<'a> Attempt<'a> {
         };
         trials.iter().enumerate().skip(first).map(show).collect()
     }
+}
+
+fn not_finite(message: String) -> Stop {
+    Stop::Failed("not_finite", message)
 }
 
 fn narrow(count: usize) -> u32 {

@@ -121,6 +121,21 @@ fn goals(result: &RunResult, work: &ExecutionWork) -> Vec<RunGoal> {
     goals.collect()
 }
 
+/// What is not finite about a goal cannot be stored, for JSON has no such number.
+///
+/// # Errors
+/// Which number it is, and what to do.
+pub(super) fn check_finite(goal: u32, discrepancy: f64, observation: &[f64]) -> Result<(), String> {
+    let remedy = "its squares must stay below 1e308: give demonstrations and the world in a unit with smaller numbers";
+    if let Some(value) = observation.iter().find(|value| !value.is_finite()) {
+        return Err(format!("an observation of goal {goal} is not finite ({value}): {remedy}"));
+    }
+    if !discrepancy.is_finite() {
+        return Err(format!("the discrepancy of goal {goal} is not finite ({discrepancy}): {remedy}"));
+    }
+    Ok(())
+}
+
 /// Euclidean, in the features' unit.
 pub(super) fn distance(observation: &[f64], goal: &[f64]) -> f64 {
     observation.iter().zip(goal).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
@@ -132,7 +147,8 @@ fn convergence(result: &RunResult) -> Vec<ConvergencePoint> {
     let mut points = Vec::new();
     for goal in &result.goals {
         let goal_index = u32::try_from(goal.index).unwrap_or(u32::MAX);
-        points.extend(goal.trace.iter().map(|point| ConvergencePoint {
+        let known = goal.trace.iter().filter(|point| point.discrepancy.is_finite());
+        points.extend(known.map(|point| ConvergencePoint {
             goal_index,
             evaluations: before + point.evaluations,
             discrepancy: point.discrepancy,
@@ -141,4 +157,18 @@ fn convergence(result: &RunResult) -> Vec<ConvergencePoint> {
         points.push(ConvergencePoint { goal_index, evaluations: before, discrepancy: goal.discrepancy });
     }
     points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_finite_is_told_with_its_goal_and_the_remedy() {
+        assert_eq!(check_finite(3, 1e300, &[0.0, -1e308]), Ok(()));
+        let told = check_finite(3, f64::INFINITY, &[1.0]).unwrap_err();
+        assert!(told.starts_with("the discrepancy of goal 3 is not finite (inf): "), "{told}");
+        let told = check_finite(0, f64::NAN, &[1.0, f64::NAN]).unwrap_err();
+        assert!(told.starts_with("an observation of goal 0 is not finite (NaN): "), "{told}");
+    }
 }

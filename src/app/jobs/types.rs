@@ -3,7 +3,7 @@
 use crate::app::experiments::ExperimentRequest;
 use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use crate::app::runs::RunGoal;
-use crate::app::{FieldError, Timestamp};
+use crate::app::{FieldError, Timestamp, null_as_infinite};
 use crate::framework::execution::{Chosen, ExecutionSpec};
 use crate::framework::generalization::Weighting;
 use crate::framework::job::State;
@@ -203,12 +203,14 @@ pub struct GoalProgress {
     /// Evaluations of this goal.
     pub evaluations: u64,
     /// Discrepancy of the observation up to this goal, features' unit.
+    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
     /// Why the goal ended.
     pub stop_reason: StopReason,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// What was observed there.
+    #[serde(deserialize_with = "null_as_infinite::numbers")]
     pub observation: Vec<f64>,
     /// Distance of the observation from the goal (Euclidean, features' unit): for a goal out of reach the best found.
     #[serde(default)]
@@ -319,6 +321,7 @@ pub enum EventData {
         /// Evaluations.
         evaluations: u64,
         /// Discrepancy, features' unit.
+        #[serde(deserialize_with = "null_as_infinite::number")]
         discrepancy: f64,
         /// Share painted, %.
         painted_percent: Option<f64>,
