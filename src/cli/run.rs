@@ -32,7 +32,7 @@ pub struct RunArguments {
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     repetitions: u32,
     /// Also tell the share of runs whose discrepancy is at most this (features' unit); the preset's own when absent.
-    #[arg(long)]
+    #[arg(long, value_parser = positive)]
     threshold: Option<f64>,
     /// Execute that preset's action before each run, on the same robot with the same seed: its trials are remembered.
     #[arg(long, value_name = "PRESET")]
@@ -53,8 +53,13 @@ pub struct RunArguments {
     #[arg(long)]
     dry_run: bool,
     /// How long a trial on a robot takes, for --dry-run.
-    #[arg(long, value_name = "SECONDS", default_value_t = ROBOT_TRIAL_S)]
+    #[arg(long, value_name = "SECONDS", default_value_t = ROBOT_TRIAL_S, value_parser = positive)]
     robot_trial_s: f64,
+}
+
+fn positive(argument: &str) -> Result<f64, String> {
+    let value = argument.parse().ok().filter(|value: &f64| *value > 0.0 && *value <= 1e9);
+    value.ok_or_else(|| "give a number above 0 and up to 1e9".to_owned())
 }
 
 /// Runs the problem and prints its results.

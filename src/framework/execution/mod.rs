@@ -2,6 +2,7 @@
 
 #[cfg(test)]
 mod bounded_tests;
+mod checks;
 mod choice;
 mod discrepancy;
 mod error;

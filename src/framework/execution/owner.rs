@@ -102,6 +102,7 @@ impl Owner {
     ) -> Result<Vec<GoalResult>, ProblemError> {
         let is_on_target = self.reaches_target();
         let outcomes = self.method.outcomes();
+        let used_up: Vec<bool> = (0..outcomes.len()).map(|goal| self.method.is_used_up(goal)).collect();
         let log = self.method.log();
         if log.is_empty() && !setup.constraints.is_empty() {
             let home = Pose { joints: setup.chain.home(), origins: [None; 2], previous: None };
@@ -129,7 +130,7 @@ impl Owner {
                     StopReason::Tolerance
                 } else if is_on_target {
                     StopReason::Target
-                } else if setup.spec.max_evaluations_per_goal.is_some_and(|most| evaluations >= most) {
+                } else if used_up[index] {
                     StopReason::MaxEvaluations
                 } else {
                     StopReason::OutOfReach
@@ -198,13 +199,7 @@ fn unbounded(
             }
             return Ok(None);
         }
-        MethodSpec::Broyden(spec) => {
-            if matches!(setup.world, WorldSpec::Coverage(_)) {
-                let expected = "features that change with the pose; take particle or search for a coverage world";
-                return Err(ProblemError::Method { method: "broyden", expected });
-            }
-            Box::new(Broyden::new(spec.clone(), tolerance, space.clone(), goals))
-        }
+        MethodSpec::Broyden(spec) => Box::new(Broyden::new(spec.clone(), tolerance, space.clone(), goals)),
         MethodSpec::Model(spec) => {
             let most = setup.spec.max_evaluations_per_goal.and_then(|most| u32::try_from(most).ok());
             let spec = ModelSpec { max_tries: spec.max_tries.min(most.unwrap_or(u32::MAX)), ..spec.clone() };

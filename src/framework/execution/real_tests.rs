@@ -13,7 +13,7 @@ fn every_method_survives_lost_observations(
     let paint = matches!(method, "particle" | "search");
     let mut problem = shipped(if paint { "paint" } else { "wax" }).unwrap().problem;
     problem.execution.method = MethodSpec::by_name(method).unwrap();
-    problem.execution.max_evaluations_per_goal = Some(60);
+    problem.execution.max_evaluations_per_goal = (!paint).then_some(60);
     problem.execution.reality = Some(RealitySpec { lost_share: 0.3, ..RealitySpec::default() });
     let mut iet = Iet::new(&problem, 11).unwrap();
     let mut world = iet.world().unwrap();

@@ -1,10 +1,11 @@
 //! A problem made ready: robot, goals and world proven to fit together.
 
+use super::checks::{check_earlier, check_goals, check_method, check_spec};
 use super::choice::choose;
 use super::error::ProblemError;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
-use crate::framework::constraint::{Constrained, ConstraintError, Constraints, HandlingSpec, Rules};
+use crate::framework::constraint::{Constrained, Constraints, Rules};
 use crate::framework::generalization::Goals;
 use crate::framework::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
 use crate::framework::robot::{Chain, RobotModel};
@@ -36,6 +37,8 @@ impl Setup {
             spec.method = choose(wishes, &spec, &problem.world).0;
         }
         check_spec(&spec)?;
+        check_method(&spec, &problem.world)?;
+        check_goals(&problem.goals)?;
         let model = RobotModel::from_urdf(&problem.urdf)?;
         let chain = Chain::new(&model, &problem.robot)?;
         let constraints = Constraints::new(&spec.constraints, &model, &problem.robot, &chain)?;
@@ -146,73 +149,4 @@ fn mix(word: u64) -> u64 {
     let word = (word ^ (word >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let word = (word ^ (word >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     word ^ (word >> 31)
-}
-
-/// Whether every earlier trial is one of a robot with that many genes, seen through m features.
-fn check_earlier(earlier: &[Trial], genes: usize, features: usize) -> Result<(), ProblemError> {
-    for (trial, Trial { joints, observation, .. }) in earlier.iter().enumerate() {
-        let wrong = |what, found, expected| Err(ProblemError::Earlier { trial, what, found, expected });
-        let finite = |values: &[f64]| values.iter().filter(|v| v.is_finite()).count();
-        if joints.len() != genes || finite(joints) != genes {
-            return wrong("finite joints", finite(joints), genes);
-        }
-        if let Some(seen) = observation
-            && (seen.len() != features || finite(seen) != features)
-        {
-            return wrong("finite features", finite(seen), features);
-        }
-    }
-    Ok(())
-}
-
-fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
-    let not_negative = |field, value: f64| {
-        if value.is_finite() && value >= 0.0 {
-            return Ok(());
-        }
-        Err(ProblemError::Value { field, value, expected: "give a finite number of at least 0" })
-    };
-    not_negative("target_discrepancy", spec.target_discrepancy.unwrap_or(0.0))?;
-    not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
-    not_negative("rounding_noise", spec.rounding_noise)?;
-    Rules::check(&spec.handling, spec.on_infeasible)?;
-    let unexecuted_may_win = match &spec.method {
-        MethodSpec::FiPso(method) => method.unexecuted_may_win,
-        MethodSpec::AffgPso(method) => method.unexecuted_may_win,
-        MethodSpec::Auto(_)
-        | MethodSpec::Sst(_)
-        | MethodSpec::Pso(_)
-        | MethodSpec::CmaEs(_)
-        | MethodSpec::Broyden(_)
-        | MethodSpec::Model(_)
-        | MethodSpec::Particle(_)
-        | MethodSpec::Search(_) => false,
-    };
-    if spec.method.owns_the_run() && !matches!(spec.handling, HandlingSpec::Rejecting { .. }) {
-        let expected = "handling \"rejecting\": it proposes no infeasible pose that another strategy could judge";
-        return Err(ProblemError::Method { method: spec.method.name(), expected });
-    }
-    if let Some(value) = spec.method.max_step_deg().filter(|step| !(step.is_finite() && *step > 0.0)) {
-        return Err(ProblemError::Value { field: "max_step_deg", value, expected: "give degrees above 0" });
-    }
-    if unexecuted_may_win && !spec.constraints.is_empty() {
-        return Err(ConstraintError::UnexecutedWinner.into());
-    }
-    let (poses, particles) = match &spec.method {
-        MethodSpec::Particle(method) => (method.poses, method.particles),
-        MethodSpec::Search(method) => (method.poses, 1),
-        _ => (1, 1),
-    };
-    for (field, value, limit, expected) in
-        [("poses", poses, 8192, "give 1 to 8192"), ("particles", particles, 1024, "give 1 to 1024")]
-    {
-        if !(1..=limit).contains(&value) {
-            return Err(ProblemError::Value { field, value: f64::from(value), expected });
-        }
-    }
-    if spec.max_evaluations_per_goal == Some(0) {
-        let expected = "give at least 1";
-        return Err(ProblemError::Value { field: "max_evaluations_per_goal", value: 0.0, expected });
-    }
-    Ok(())
 }

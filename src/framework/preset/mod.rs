@@ -209,7 +209,8 @@ mod tests {
                 assert!(preset.select_method(method), "{name} {method}");
                 assert_eq!(preset.problem.execution.method.name(), method);
                 let covers = matches!(preset.problem.world, WorldSpec::Coverage(_));
-                let fits = if covers { method != "broyden" } else { !matches!(method, "particle" | "search") };
+                let unfit = if covers { ["broyden", "model"] } else { ["particle", "search"] };
+                let fits = !unfit.contains(&method);
                 assert_eq!(Iet::new(&preset.problem, 1).is_ok(), fits, "{name} {method}");
                 let is_default = preset.problem.execution.method == MethodSpec::by_name(method).unwrap();
                 let is_published = matches!(method, "sst" | "pso" | "fi_pso" | "affg_pso");

@@ -267,6 +267,11 @@ impl WholeRun for Broyden {
         };
         (0..self.goals.len()).map(outcome).collect()
     }
+
+    fn is_used_up(&self, goal: usize) -> bool {
+        let tries = self.log.iter().filter(|trial| trial.goal == goal).count();
+        tries >= self.spec.max_tries as usize
+    }
 }
 
 #[cfg(test)]

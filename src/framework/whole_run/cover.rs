@@ -14,7 +14,7 @@ use utoipa::ToSchema;
 pub struct CoverSpec {
     /// The run gives up after this many trials.
     pub max_evaluations: u32,
-    /// Poses to choose from, spread evenly over the joints' ranges (1 to 8192).
+    /// Poses to choose from, spread evenly over the joints' ranges (1 to 4096).
     pub poses: u32,
     /// Largest step of a joint from one trial to the next, degrees (of 180 a stroke for prismatic joints); none where
     /// the robot needs none.
@@ -90,7 +90,12 @@ impl Ledger {
     }
 
     pub fn is_over(&self) -> bool {
-        self.goal().is_none() || self.log.len() >= self.spec.max_evaluations as usize
+        self.goal().is_none() || self.is_used_up()
+    }
+
+    /// Whether the run's trials are used up.
+    pub fn is_used_up(&self) -> bool {
+        self.log.len() >= self.spec.max_evaluations as usize
     }
 
     pub fn propose(&self, joints: Vec<f64>) -> Proposal {

@@ -110,4 +110,7 @@ pub trait WholeRun: Send {
 
     /// The best own trial of each goal.
     fn outcomes(&mut self) -> Vec<Outcome>;
+
+    /// Whether the goal ended because its trials were used up, with hope left.
+    fn is_used_up(&self, goal: usize) -> bool;
 }

@@ -172,12 +172,17 @@ impl ModelIet {
         best
     }
 
+    /// Trials of a goal's own.
+    fn tries(&self, identification: usize, goal: usize) -> u32 {
+        self.log.iter().skip(identification).filter(|t| t.goal == goal).fold(0, |n, _| n + 1)
+    }
+
     /// The goals still worth a trial: not reached, tries left.
     fn open_goals(&self, identification: usize, belief: &mut Belief) -> Vec<Open> {
         let seen = self.seen(belief);
         let mut open = Vec::with_capacity(self.goals.len());
         for index in 0..self.goals.len() {
-            let tries = self.log.iter().skip(identification).filter(|t| t.goal == index).fold(0_u32, |n, _| n + 1);
+            let tries = self.tries(identification, index);
             let (_, best) = self.best(index, &seen);
             if best + self.spec.noise.min(0.1 * self.tolerance) > self.tolerance && tries < self.spec.max_tries {
                 let need = (0.25 * self.tolerance).max(0.02 * best);
@@ -243,6 +248,10 @@ impl ModelIet {
 }
 
 impl WholeRun for ModelIet {
+    fn is_used_up(&self, goal: usize) -> bool {
+        self.tries(self.identification_count(), goal) >= self.spec.max_tries
+    }
+
     fn ask(&mut self) -> Proposal {
         let identification = self.identification_count();
         if self.log.len() < identification {

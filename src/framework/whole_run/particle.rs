@@ -240,6 +240,10 @@ impl WholeRun for ParticleIet {
     fn outcomes(&mut self) -> Vec<Outcome> {
         self.ledger.outcomes()
     }
+
+    fn is_used_up(&self, _: usize) -> bool {
+        self.ledger.is_used_up()
+    }
 }
 
 impl Particle {

@@ -195,4 +195,8 @@ impl WholeRun for SearchIet {
     fn outcomes(&mut self) -> Vec<Outcome> {
         self.ledger.outcomes()
     }
+
+    fn is_used_up(&self, _: usize) -> bool {
+        self.ledger.is_used_up()
+    }
 }

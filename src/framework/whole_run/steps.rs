@@ -188,6 +188,10 @@ impl WholeRun for Stepped {
         self.inner.accepted()
     }
 
+    fn is_used_up(&self, goal: usize) -> bool {
+        self.inner.is_used_up(goal)
+    }
+
     fn outcomes(&mut self) -> Vec<Outcome> {
         let outcomes = self.inner.outcomes();
         match self.limits.per_goal {

@@ -57,7 +57,7 @@ impl RealitySpec {
         let ranges = [
             ("link_share", self.link_share, 0.0..=0.9, "0 to 0.9"),
             ("base_shift_m", self.base_shift_m, 0.0..=1e3, "0 to 1000 m"),
-            ("sensor_noise", self.sensor_noise, 0.0..=f64::MAX, "0 or more"),
+            ("sensor_noise", self.sensor_noise, 0.0..=1e6, "0 to 1e6, in the features' unit"),
             ("joint_noise_deg", self.joint_noise_deg, 0.0..=360.0, "0 to 360 degrees"),
             ("lost_share", self.lost_share, 0.0..=0.99, "0 to 0.99"),
             ("latency_s", self.latency_s, 0.0..=3600.0, "0 to 3600 s"),

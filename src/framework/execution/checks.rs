@@ -1,0 +1,191 @@
+//! Numbers a problem must keep to: what lies outside is refused before anything runs, with the number and the remedy.
+
+use super::error::ProblemError;
+use super::spec::ExecutionSpec;
+use crate::framework::constraint::{ConstraintError, HandlingSpec, Rules};
+use crate::framework::generalization::Goals;
+use crate::framework::optimizer::MethodSpec;
+use crate::framework::whole_run::Trial;
+use crate::framework::world::WorldSpec;
+
+/// Largest goal, features' unit: as large as a demonstration may be.
+const MOST_GOAL: f64 = 1e9;
+/// Most times a pose is compared with a cell when PARTICLE-IET draws its robots: a second of work.
+const MOST_COMPARISONS: f64 = 67_108_864.0;
+
+/// A number, the range it keeps to and the remedy.
+type Range = (&'static str, f64, std::ops::RangeInclusive<f64>, &'static str);
+
+fn first_outside(ranges: impl IntoIterator<Item = Range>) -> Result<(), ProblemError> {
+    let wrong = ranges.into_iter().find(|(_, value, range, _)| !range.contains(value));
+    wrong.map_or(Ok(()), |(field, value, _, expected)| Err(ProblemError::Value { field, value, expected }))
+}
+
+/// Whether the method's own numbers make sense, alone and together with the world.
+pub(super) fn check_method(spec: &ExecutionSpec, world: &WorldSpec) -> Result<(), ProblemError> {
+    let noise = |value| ("noise", value, 0.0..=1e6, "give 0 to 1e6, in the features' unit");
+    let moves = |value| ("identification_deg", value, 0.1..=180.0, "give 0.1 to 180 degrees");
+    let tries = |value: u32| ("max_tries", f64::from(value), 1.0..=1e4, "give 1 to 10000");
+    let trials = |value: u32| ("max_evaluations", f64::from(value), 1.0..=1e5, "give 1 to 100000");
+    let step = spec.method.max_step_deg();
+    first_outside(step.map(|step| ("max_step_deg", step, 0.1..=1e4, "give 0.1 degrees or more")))?;
+    match &spec.method {
+        MethodSpec::Auto(wishes) => first_outside([noise(wishes.noise)])?,
+        MethodSpec::Model(method) => {
+            first_outside([noise(method.noise), moves(method.identification_deg), tries(method.max_tries)])?;
+        }
+        MethodSpec::Broyden(method) => first_outside([
+            moves(method.identification_deg),
+            ("longest_step_deg", method.longest_step_deg, 0.1..=360.0, "give 0.1 to 360 degrees"),
+            tries(method.max_tries),
+        ])?,
+        MethodSpec::Search(method) => first_outside([
+            trials(method.max_evaluations),
+            ("poses", f64::from(method.poses), 1.0..=4096.0, "give 1 to 4096"),
+        ])?,
+        MethodSpec::Particle(method) => {
+            let (poses, particles) = (f64::from(method.poses), f64::from(method.particles));
+            let cells = match world {
+                WorldSpec::Coverage(surface) => f64::from(surface.columns) * f64::from(surface.rows),
+                WorldSpec::ToolPosition(_) => 1.0,
+            };
+            let together = "poses x particles x cells is at most 2^26: give fewer of one of them";
+            first_outside([
+                trials(method.max_evaluations),
+                ("poses", poses, 1.0..=8192.0, "give 1 to 8192"),
+                ("particles", particles, 1.0..=1024.0, "give 1 to 1024"),
+                ("link_share", method.link_share, 0.0..=0.5, "give 0 to 0.5"),
+                ("base_shift_m", method.base_shift_m, 0.0..=10.0, "give 0 to 10 m"),
+                ("poses x particles x cells", poses * particles * cells, 1.0..=MOST_COMPARISONS, together),
+            ])?;
+        }
+        _ => {}
+    }
+    let refuse = |expected| Err(ProblemError::Method { method: spec.method.name(), expected });
+    match &spec.method {
+        MethodSpec::Model(_) | MethodSpec::Broyden(_) if matches!(world, WorldSpec::Coverage(_)) => {
+            refuse("features that follow the pose without jumps; for a surface take particle or search")
+        }
+        MethodSpec::Broyden(_) | MethodSpec::Particle(_) | MethodSpec::Search(_)
+            if spec.max_evaluations_per_goal.is_some() =>
+        {
+            refuse(
+                "no max_evaluations_per_goal, for it searches all goals together: leave it out, or limit max_tries or \
+                    max_evaluations of the method",
+            )
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether every goal is a number that distances can be computed of.
+pub(super) fn check_goals(goals: &Goals) -> Result<(), ProblemError> {
+    let values = goals.rows().flatten().copied();
+    first_outside(values.map(|value| ("goals", value, -MOST_GOAL..=MOST_GOAL, "give values within -1e9 to 1e9")))
+}
+
+/// Whether every earlier trial is one of a robot with that many genes, seen through m features.
+pub(super) fn check_earlier(earlier: &[Trial], genes: usize, features: usize) -> Result<(), ProblemError> {
+    for (trial, Trial { joints, observation, .. }) in earlier.iter().enumerate() {
+        let wrong = |what, found, expected| Err(ProblemError::Earlier { trial, what, found, expected });
+        let finite = |values: &[f64]| values.iter().filter(|v| v.is_finite()).count();
+        if joints.len() != genes || finite(joints) != genes {
+            return wrong("finite joints", finite(joints), genes);
+        }
+        if let Some(seen) = observation
+            && (seen.len() != features || finite(seen) != features)
+        {
+            return wrong("finite features", finite(seen), features);
+        }
+    }
+    Ok(())
+}
+
+/// Whether limits, strategies and method fit together.
+pub(super) fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
+    let not_negative = |field, value: f64| {
+        if value.is_finite() && value >= 0.0 {
+            return Ok(());
+        }
+        Err(ProblemError::Value { field, value, expected: "give a finite number of at least 0" })
+    };
+    not_negative("target_discrepancy", spec.target_discrepancy.unwrap_or(0.0))?;
+    not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
+    not_negative("rounding_noise", spec.rounding_noise)?;
+    Rules::check(&spec.handling, spec.on_infeasible)?;
+    let unexecuted_may_win = match &spec.method {
+        MethodSpec::FiPso(method) => method.unexecuted_may_win,
+        MethodSpec::AffgPso(method) => method.unexecuted_may_win,
+        MethodSpec::Auto(_)
+        | MethodSpec::Sst(_)
+        | MethodSpec::Pso(_)
+        | MethodSpec::CmaEs(_)
+        | MethodSpec::Broyden(_)
+        | MethodSpec::Model(_)
+        | MethodSpec::Particle(_)
+        | MethodSpec::Search(_) => false,
+    };
+    if spec.method.owns_the_run() && !matches!(spec.handling, HandlingSpec::Rejecting { .. }) {
+        let expected = "handling \"rejecting\": it proposes no infeasible pose that another strategy could judge";
+        return Err(ProblemError::Method { method: spec.method.name(), expected });
+    }
+    if unexecuted_may_win && !spec.constraints.is_empty() {
+        return Err(ConstraintError::UnexecutedWinner.into());
+    }
+    if spec.max_evaluations_per_goal == Some(0) {
+        let expected = "give at least 1";
+        return Err(ProblemError::Value { field: "max_evaluations_per_goal", value: 0.0, expected });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::framework::execution::{Iet, Problem};
+    use crate::framework::preset::shipped;
+    use rstest::rstest;
+    use serde_json::{Value, json};
+
+    fn refusal(preset: &str, execution: &Value) -> String {
+        let mut problem: Problem = shipped(preset).unwrap().problem;
+        let mut spec = serde_json::to_value(&problem.execution).unwrap();
+        spec.as_object_mut().unwrap().extend(execution.as_object().unwrap().clone());
+        problem.execution = serde_json::from_value(spec).unwrap();
+        Iet::new(&problem, 1).err().map(|error| error.to_string()).unwrap_or_default()
+    }
+
+    #[rstest]
+    #[case("wax", json!({"name": "model", "noise": -1.0}), "noise is -1")]
+    #[case("wax", json!({"name": "auto", "noise": 1e9}), "noise is 1")]
+    #[case("wax", json!({"name": "model", "max_tries": 0}), "max_tries is 0")]
+    #[case("wax", json!({"name": "model", "identification_deg": -45.0}), "identification_deg is -45")]
+    #[case("wax", json!({"name": "model", "max_step_deg": 1e-9}), "0.1 degrees or more")]
+    #[case("wax", json!({"name": "broyden", "longest_step_deg": 0.0}), "longest_step_deg is 0")]
+    #[case("paint", json!({"name": "model"}), "particle or search")]
+    #[case("paint", json!({"name": "search", "max_evaluations": 0}), "max_evaluations is 0")]
+    #[case("paint", json!({"name": "particle", "base_shift_m": 1e9}), "0 to 10 m")]
+    #[case("paint", json!({"name": "particle", "particles": 1024, "poses": 8192}), "fewer of one")]
+    fn absurd_methods_are_refused(#[case] preset: &str, #[case] method: Value, #[case] says: &str) {
+        let error = refusal(preset, &json!({ "method": method }));
+        assert!(error.contains(says), "{error:?}");
+    }
+
+    #[rstest]
+    #[case("wax", "broyden", true)]
+    #[case("paint", "search", true)]
+    #[case("wax", "model", false)]
+    fn a_limit_a_method_cannot_keep_is_refused(#[case] preset: &str, #[case] name: &str, #[case] refused: bool) {
+        let error = refusal(preset, &json!({"method": {"name": name}, "max_evaluations_per_goal": 5}));
+        assert_eq!(error.contains("leave it out"), refused, "{error:?}");
+    }
+
+    #[test]
+    fn goals_no_distance_can_be_computed_of_are_refused() {
+        let mut problem = shipped("wax").unwrap().problem;
+        let mut goals = serde_json::to_value(&problem.goals).unwrap();
+        goals["goals"][3][1] = json!(1e300);
+        problem.goals = serde_json::from_value(goals).unwrap();
+        let error = Iet::new(&problem, 1).err().unwrap().to_string();
+        assert!(error.contains("within -1e9 to 1e9"), "{error}");
+    }
+}
