@@ -19,6 +19,7 @@ pub mod ports;
 pub mod recognitions;
 pub mod robots;
 pub mod runs;
+pub mod shape;
 mod time;
 pub mod trajectories;
 pub mod worlds;

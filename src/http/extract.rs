@@ -2,7 +2,7 @@
 
 use super::problem::Problem;
 use super::{Settings, body, strict};
-use crate::app::{AppError, ErrorKind};
+use crate::app::{AppError, ErrorKind, shape};
 use axum::extract::{FromRef, FromRequest, FromRequestParts, Request};
 use axum::http::header::{CONTENT_TYPE, IF_MATCH};
 use axum::http::request::Parts;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Json<T>(pub T);
 
-impl<S: Send + Sync, T: DeserializeOwned> FromRequest<S> for Json<T>
+impl<S: Send + Sync, T: DeserializeOwned + Serialize> FromRequest<S> for Json<T>
 where
     Arc<Settings>: FromRef<S>,
 {
@@ -124,7 +124,7 @@ fn is_json(media_type: &str) -> bool {
     essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
 
-fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, AppError> {
+fn parse<T: DeserializeOwned + Serialize>(bytes: &[u8]) -> Result<T, AppError> {
     strict::check(bytes).map_err(|(path, error)| refusal(pointer(&path), &error))?;
     let mut json = serde_json::Deserializer::from_slice(bytes);
     let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
@@ -132,6 +132,8 @@ fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, AppError> {
         refusal(pointer, error.inner())
     })?;
     json.end().map_err(|error| refusal(String::new(), &error))?;
+    let sent = serde_json::from_slice(bytes).map_err(|error| refusal(String::new(), &error))?;
+    shape::check("", &sent, &serde_json::to_value(&value).map_err(AppError::internal)?)?;
     Ok(value)
 }
 
@@ -161,12 +163,12 @@ fn pointer(path: &serde_path_to_error::Path) -> String {
 mod tests {
     use super::*;
 
-    #[derive(Debug, serde::Deserialize, PartialEq)]
+    #[derive(Debug, serde::Deserialize, Serialize, PartialEq)]
     #[serde(deny_unknown_fields)]
     struct Outer {
         rows: Vec<Inner>,
     }
-    #[derive(Debug, serde::Deserialize, PartialEq)]
+    #[derive(Debug, serde::Deserialize, Serialize, PartialEq)]
     struct Inner {
         count: u8,
     }
@@ -175,6 +177,8 @@ mod tests {
     fn a_wrong_value_is_invalid_and_told_by_its_pointer() {
         let error = parse::<Outer>(br#"{"rows": [{"count": 1}, {"count": 300}]}"#).unwrap_err();
         assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/rows/1/count"));
+        let error = parse::<Outer>(br#"{"rows": [{"count": 1}, [2]]}"#).unwrap_err();
+        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/rows/1"));
         let error = parse::<Outer>(br#"{"rows": [], "ro/ws": 1}"#).unwrap_err();
         assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/ro~1ws"));
     }

@@ -109,3 +109,32 @@ async fn a_second_job_begins_with_the_trials_of_the_first_unless_it_is_told_not_
     let drawn = made(&http, &other).await;
     assert_eq!(drawn["request"]["earlier_runs"], json!([]), "another robot has no earlier trials");
 }
+
+#[tokio::test]
+async fn only_the_service_tells_why_a_method_was_chosen_and_forms_only_serde_knows_are_refused() {
+    let server = Server::start();
+    let http = Http::new(&server);
+    let inputs = prepare(&http).await;
+    let mut forged = model(&inputs, Some(json!([])));
+    forged["execution"]["chosen"] = json!({"method": "model", "reason": "forged"});
+    let job = http.post("/jobs", &forged).await.expect(202);
+    assert_eq!(job.json["request"]["execution"].get("chosen"), None, "{}", job.text);
+    let mut auto = forged.clone();
+    auto["execution"]["method"] = json!("auto");
+    let job = http.post("/jobs", &auto).await.expect(202);
+    let chosen = job.json["request"]["execution"]["chosen"].clone();
+    assert!(chosen["reason"].as_str().unwrap().len() > 20 && chosen["reason"] != "forged", "{chosen}");
+    let again = http.post(&format!("/jobs/{}:clone", job.text("/id")), &json!({})).await.expect(202);
+    assert_eq!(again.json["request"]["execution"]["chosen"], chosen);
+
+    for (execution, pointer) in [
+        (json!(["model"]), "/execution"),
+        (json!({"method": {"name": 3}}), "/execution/method/name"),
+        (json!({"method": "model", "reality": [0.5]}), "/execution/reality"),
+    ] {
+        let mut request = model(&inputs, None);
+        request["execution"] = execution;
+        let problem = http.post("/jobs", &request).await.expect_problem(422, "invalid_request");
+        assert_eq!(problem.text("/errors/0/pointer"), pointer);
+    }
+}

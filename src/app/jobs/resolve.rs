@@ -172,6 +172,8 @@ impl App {
             execution: request.execution.clone(),
             earlier: Vec::new(),
         };
+        // Only the service tells why a method was chosen.
+        problem.execution.chosen = None;
         problem.choose();
         request.execution = problem.execution.clone();
         let seed = request.seed.unwrap_or_else(|| self.ports.ids.seed());

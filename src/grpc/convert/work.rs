@@ -1,15 +1,16 @@
 //! What a job does: the request, in and out.
 
 use super::{finite, finite_or_none, list, metric, reference, references, required, text};
-use crate::app::AppError;
 use crate::app::jobs::{CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
+use crate::app::{AppError, shape};
 use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::execution::{Chosen, ExecutionSpec};
 use crate::framework::generalization::Weighting;
-use crate::framework::optimizer::{BoundsRule, MethodSpec, SstSpec};
+use crate::framework::optimizer::{BoundsRule, MethodSpec, SstSpec, method_or_name};
 use crate::grpc::proto;
 use proto::execution_spec::Method;
 use proto::work::Kind;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 /// The work of a request.
@@ -59,7 +60,7 @@ fn earlier(earlier: proto::EarlierRuns) -> Result<Vec<EarlierRun>, AppError> {
 fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
     let method = match required("/execution/method", spec.method)? {
         Method::Sst(sst) => MethodSpec::Sst(tournament(&sst)?),
-        Method::MethodJson(json) => document("/execution/method_json", &json)?,
+        Method::MethodJson(json) => document::<NamedMethod>("/execution/method_json", &json)?.0,
         Method::MethodName(name) => MethodSpec::by_name(&name).ok_or_else(|| {
             let detail = format!("{name:?} is no method: the methods are {}", MethodSpec::NAMES.join(", "));
             AppError::field("/execution/method_name", "invalid_value", detail)
@@ -96,9 +97,17 @@ struct Constrained {
     on_infeasible: OnInfeasible,
 }
 
-fn document<T: serde::de::DeserializeOwned>(pointer: &str, json: &str) -> Result<T, AppError> {
-    serde_json::from_str(json).map_err(|error| AppError::field(pointer, "invalid_value", error.to_string()))
+fn document<T: DeserializeOwned + Serialize>(pointer: &str, json: &str) -> Result<T, AppError> {
+    let refuse = |error: serde_json::Error| AppError::field(pointer, "invalid_value", error.to_string());
+    let value = serde_json::from_str(json).map_err(refuse)?;
+    let sent = serde_json::from_str(json).map_err(refuse)?;
+    shape::check(pointer, &sent, &serde_json::to_value(&value).map_err(AppError::internal)?)?;
+    Ok(value)
 }
+
+/// A method that travels as a JSON document: an object, or its name alone.
+#[derive(Serialize, Deserialize)]
+struct NamedMethod(#[serde(deserialize_with = "method_or_name")] MethodSpec);
 
 /// JSON of a value type, which always has one.
 fn json(value: &impl Serialize) -> String {
@@ -264,6 +273,19 @@ mod tests {
         let spec = proto::ExecutionSpec { method: Some(sst), ..Default::default() };
         let message = proto::Execution { action, robot, world, execution: Some(spec), ..Default::default() };
         assert_eq!(work(Some(proto::Work { kind: Some(Kind::Execution(Box::new(message))) })).unwrap(), json);
+    }
+
+    #[test]
+    fn json_documents_are_read_as_over_http() {
+        let read = |method: &str, reality: &str| {
+            let method = Some(Method::MethodJson(method.to_owned()));
+            spec(proto::ExecutionSpec { method, reality_json: reality.to_owned(), ..Default::default() })
+        };
+        assert_eq!(read("\"model\"", "").unwrap().method, MethodSpec::by_name("model").unwrap());
+        assert_eq!(read("{\"name\": \"model\"}", "").unwrap(), read("\"model\"", "").unwrap());
+        let place = |error: AppError| error.details[0].pointer.clone();
+        assert_eq!(place(read("{\"name\": 3}", "").unwrap_err()), "/execution/method_json");
+        assert_eq!(place(read("\"model\"", "[0.5]").unwrap_err()), "/execution/reality_json");
     }
 
     #[test]
