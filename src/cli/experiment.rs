@@ -1,11 +1,13 @@
 //! `cgda experiment`: a matrix of settings from a TOML file, run over all cores, as table and figure.
 
 use crate::framework::experiment::figure::{Method, trade_off};
-use crate::framework::experiment::{Experiment, ExperimentSpec, RunId, RunRow, export, run};
+use crate::framework::experiment::{CellResult, Experiment, ExperimentSpec, RunError, RunId, RunRow, export, run};
 use crate::framework::preset;
 use anyhow::{Context as _, ensure};
 use indicatif::{ParallelProgressIterator as _, ProgressBar, ProgressStyle};
+use rayon::iter::Either;
 use rayon::prelude::{IntoParallelRefIterator as _, ParallelIterator as _};
+use std::error::Error as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -43,11 +45,13 @@ pub fn run_command(arguments: &ExperimentArguments) -> anyhow::Result<()> {
         ..spec
     };
     let mut experiment = Experiment::new(spec.plan(|name| preset::shipped(name).ok())?);
-    finish(&mut experiment, arguments.threads)?;
+    let lost = finish(&mut experiment, arguments.threads)?;
+    report(&lost, &experiment)?;
     if let Some(path) = &arguments.figure {
         std::fs::write(path, figure(&experiment)?).with_context(|| format!("{} cannot be written", path.display()))?;
     }
-    let table = experiment.table();
+    let mut table = experiment.table();
+    count(&lost, &mut table);
     let text = if arguments.csv { export::full_csv(&table) } else { export::markdown(&table) };
     std::io::stdout().lock().write_all(text.as_bytes())?;
     Ok(())
@@ -58,23 +62,52 @@ fn read(path: &Path) -> anyhow::Result<ExperimentSpec> {
     toml::from_str(&text).with_context(|| format!("{} is no valid experiment", path.display()))
 }
 
-/// Runs what is pending on `threads` threads (all cores when absent).
+/// A run without a row, and why.
+pub(super) type Lost = (RunId, RunError);
+
+/// Names every lost run.
 ///
 /// # Errors
-/// A cell whose problem cannot be executed.
-pub(super) fn finish(experiment: &mut Experiment, threads: Option<u32>) -> anyhow::Result<()> {
+/// The first one, where no run was finished.
+fn report(lost: &[Lost], experiment: &Experiment) -> anyhow::Result<()> {
+    for (_, error) in lost {
+        let cause = error.source().map_or_else(String::new, |cause| format!(": {cause}"));
+        ensure!(experiment.rows().len() > 0, "{error}{cause}");
+        eprintln!("counted as invalid: {error}{cause}");
+    }
+    Ok(())
+}
+
+/// Counts lost runs as invalid ones of their cells.
+fn count(lost: &[Lost], table: &mut [CellResult]) {
+    for (id, _) in lost {
+        if let Some(cell) = table.get_mut(id.cell as usize) {
+            cell.repetitions += 1;
+            cell.invalid += 1;
+        }
+    }
+}
+
+/// Runs what is pending on `threads` threads (all cores when absent); answers the runs that could not be finished.
+///
+/// # Errors
+/// No threads, or a row that is not of the plan.
+pub(super) fn finish(experiment: &mut Experiment, threads: Option<u32>) -> anyhow::Result<Vec<Lost>> {
     let pending: Vec<RunId> = experiment.pending().collect();
     let bar = ProgressBar::new(pending.len() as u64);
     bar.set_style(ProgressStyle::with_template("{wide_bar} {pos}/{len} runs, {eta} left")?);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize).build()?;
     let plan = experiment.plan();
-    let rows = pool.install(|| {
-        let rows = pending.par_iter().progress_with(bar.clone()).map(|id| run(plan, *id));
-        rows.collect::<Result<Vec<RunRow>, _>>()
-    })?;
+    let (rows, lost): (Vec<RunRow>, Vec<Lost>) = pool.install(|| {
+        let runs = pending.par_iter().progress_with(bar.clone());
+        runs.partition_map(|id| match run(plan, *id) {
+            Ok(row) => Either::Left(row),
+            Err(error) => Either::Right((*id, error)),
+        })
+    });
     bar.finish_and_clear();
     rows.into_iter().try_for_each(|row| experiment.record(row))?;
-    Ok(())
+    Ok(lost)
 }
 
 /// Evaluations against discrepancy of every cell in which a run counts.
@@ -106,7 +139,7 @@ mod tests {
         let mut spec = ExperimentSpec { repetitions, ..spec() };
         spec.cells.retain(|cell| keep(&cell.setting));
         let mut experiment = Experiment::new(spec.plan(|name| preset::shipped(name).ok()).unwrap());
-        finish(&mut experiment, Some(threads)).unwrap();
+        assert!(finish(&mut experiment, Some(threads)).unwrap().is_empty());
         experiment
     }
 
@@ -119,6 +152,20 @@ mod tests {
         let found: std::collections::BTreeSet<_> =
             plan.cells.iter().map(|cell| cell.problem.execution.method.name()).collect();
         assert_eq!(Vec::from_iter(found), ["affg_pso", "broyden", "cma_es", "fi_pso", "model", "pso", "sst"]);
+    }
+
+    #[test]
+    fn a_lost_run_is_counted_as_invalid_and_costs_no_other_row() {
+        let experiment = done(1, 1, |setting| setting == "FI-PSO");
+        let id = RunId { cell: 0, repetition: 1 };
+        let lost = [(id, run(experiment.plan(), id).unwrap_err())];
+        report(&lost, &experiment).unwrap();
+        let mut table = experiment.table();
+        let discrepancy = table[0].discrepancy;
+        count(&lost, &mut table);
+        assert_eq!((table[0].repetitions, table[0].invalid, table[0].discrepancy), (2, 1, discrepancy));
+        let nothing = Experiment::new(experiment.plan().clone());
+        assert!(report(&lost, &nothing).unwrap_err().to_string().contains("repetition 1"));
     }
 
     /// Every method, the swarms and those that own the run too.

@@ -40,7 +40,9 @@ pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
     let spec = tables.experiment(arguments.seed, arguments.repetitions)?;
     let plan = spec.plan(|name| preset::shipped(name).ok())?;
     let mut experiment = Experiment::new(plan);
-    finish(&mut experiment, arguments.threads)?;
+    if let Some((_, error)) = finish(&mut experiment, arguments.threads)?.into_iter().next() {
+        return Err(error.into());
+    }
     if let Some(folder) = &arguments.figures {
         return write_figures(folder, &experiment, &tables.cells);
     }
@@ -75,7 +77,7 @@ mod tests {
     fn experiment(table: Option<u8>, repetitions: u32, threads: u32) -> (PaperTables, Experiment) {
         let (tables, plan) = plan(table, repetitions);
         let mut experiment = Experiment::new(plan);
-        finish(&mut experiment, Some(threads)).unwrap();
+        assert!(finish(&mut experiment, Some(threads)).unwrap().is_empty());
         (tables, experiment)
     }
 
