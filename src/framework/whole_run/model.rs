@@ -248,10 +248,6 @@ impl ModelIet {
 }
 
 impl WholeRun for ModelIet {
-    fn is_used_up(&self, goal: usize) -> bool {
-        self.tries(self.identification_count(), goal) >= self.spec.max_tries
-    }
-
     fn ask(&mut self) -> Proposal {
         let identification = self.identification_count();
         if self.log.len() < identification {
@@ -291,5 +287,9 @@ impl WholeRun for ModelIet {
         self.prior = prior;
         let nothing = Outcome { trial: None, distance: f64::INFINITY, reached: false };
         outcomes.unwrap_or_else(|| vec![nothing; self.goals.len()])
+    }
+
+    fn is_used_up(&self, goal: usize) -> bool {
+        self.tries(self.identification_count(), goal) >= self.spec.max_tries
     }
 }
