@@ -21,6 +21,14 @@ impl Hall {
             provenance: self.provenance,
         }
     }
+
+    /// The better of the hall of fame and the best of the current population; the hall's where they are equal.
+    pub fn or_better<'a>(hall: Option<&'a Self>, current: Option<Best<'a>>) -> Option<Best<'a>> {
+        match (hall.map(Self::as_best), current) {
+            (Some(hall), Some(current)) => Some(if current.fitness < hall.fitness { current } else { hall }),
+            (hall, current) => hall.or(current),
+        }
+    }
 }
 
 impl From<Best<'_>> for Hall {

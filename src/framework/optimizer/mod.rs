@@ -20,6 +20,7 @@ mod rng;
 mod spec;
 mod sst;
 mod swarm;
+mod waiting;
 
 pub use affg_pso::AffgState;
 pub use batch::Batch;

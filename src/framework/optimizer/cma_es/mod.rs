@@ -27,11 +27,11 @@ pub use spec::CmaEsSpec;
 pub use state::CmaEsState;
 
 use super::hall::Hall;
+use super::waiting::Waiting;
 use super::{
     Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, RandomStream, SearchSpace, StopReason,
 };
 use distribution::{Axes, Distribution};
-use state::Waiting;
 use weights::Weights;
 
 /// A search of one goal; see the module for the algorithm.

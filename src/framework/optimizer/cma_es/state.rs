@@ -2,6 +2,7 @@
 
 use super::distribution::Distribution;
 use crate::framework::optimizer::hall::Hall;
+use crate::framework::optimizer::waiting::Waiting;
 use crate::framework::optimizer::{
     OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null,
 };
@@ -9,13 +10,6 @@ use serde::{Deserialize, Serialize};
 
 /// Version of [`CmaEsState`]; changes when its meaning does.
 pub(super) const STATE_VERSION: u32 = 1;
-
-/// A candidate that has no fitness yet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Waiting {
-    pub id: u64,
-    pub slot: usize,
-}
 
 /// Everything a CMA-ES remembers. Matrices are row-major, one row a candidate of the present generation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -18,11 +18,12 @@ mod tests;
 pub use state::SstState;
 
 use super::hall::Hall;
+use super::waiting::Waiting;
 use super::{
     Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, SstSpec, StopReason,
 };
 use operators::{CROSSOVERS, Parents, mutate};
-use state::{STATE_VERSION, Waiting};
+use state::STATE_VERSION;
 
 /// The steady-state tournament; see the module for the algorithm.
 #[derive(Debug)]
@@ -237,12 +238,7 @@ impl Optimizer for Sst {
     }
 
     fn best(&self) -> Option<Best<'_>> {
-        let hall = self.state.hall.as_ref().map(Hall::as_best);
-        let current = self.best_slot().map(|slot| self.as_best(slot));
-        match (hall, current) {
-            (Some(hall), Some(current)) => Some(if current.fitness < hall.fitness { current } else { hall }),
-            (hall, current) => hall.or(current),
-        }
+        Hall::or_better(self.state.hall.as_ref(), self.best_slot().map(|slot| self.as_best(slot)))
     }
 
     fn stop(&self) -> Option<StopReason> {

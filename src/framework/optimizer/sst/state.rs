@@ -1,6 +1,7 @@
 //! What a steady-state tournament remembers; saved and resumed as it is.
 
 use crate::framework::optimizer::hall::Hall;
+use crate::framework::optimizer::waiting::Waiting;
 use crate::framework::optimizer::{
     OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null,
 };
@@ -8,13 +9,6 @@ use serde::{Deserialize, Serialize};
 
 /// Version of [`SstState`]; changes when its meaning does.
 pub(super) const STATE_VERSION: u32 = 1;
-
-/// An individual that has no fitness yet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Waiting {
-    pub id: u64,
-    pub slot: usize,
-}
 
 /// Everything a steady-state tournament remembers. Matrices are row-major, one row an individual.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

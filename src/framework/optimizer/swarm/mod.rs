@@ -21,12 +21,12 @@ pub use spec::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, VelocityClamp
 pub use state::SwarmState;
 
 use super::hall::Hall;
+use super::waiting::Waiting;
 use super::{
     Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, RandomStream, SearchSpace, StopReason,
     Tally,
 };
 use movement::{Pull, fly};
-use state::Waiting;
 
 /// A particle that has moved, and what its fitness may be estimated from.
 pub(super) struct Flight<'a> {
@@ -288,12 +288,7 @@ impl<E: Estimator> Optimizer for Swarm<E> {
     }
 
     fn best(&self) -> Option<Best<'_>> {
-        let hall = self.state.hall.as_ref().map(Hall::as_best);
-        let current = self.best_slot().map(|slot| self.as_best(slot));
-        match (hall, current) {
-            (Some(hall), Some(current)) => Some(if current.fitness < hall.fitness { current } else { hall }),
-            (hall, current) => hall.or(current),
-        }
+        Hall::or_better(self.state.hall.as_ref(), self.best_slot().map(|slot| self.as_best(slot)))
     }
 
     fn stop(&self) -> Option<StopReason> {

@@ -3,6 +3,7 @@
 use super::movement::limited;
 use super::spec::SwarmSpec;
 use crate::framework::optimizer::hall::Hall;
+use crate::framework::optimizer::waiting::Waiting;
 use crate::framework::optimizer::{
     OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, Tally, infinite_as_null,
 };
@@ -10,13 +11,6 @@ use serde::{Deserialize, Serialize};
 
 /// Version of [`SwarmState`]; changes when its meaning does.
 pub(super) const STATE_VERSION: u32 = 1;
-
-/// A particle that has no fitness yet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Waiting {
-    pub id: u64,
-    pub slot: usize,
-}
 
 /// Everything a particle swarm remembers. Matrices are row-major, one row a particle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
