@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what a bare Debian or Ubuntu machine lacks: `setup.sh run` to build and run, `setup.sh test` for the tests too.
-# Debian packages are installed only by root; everyone else is told what is missing.
+# Installs missing tools on a bare Debian or Ubuntu machine: `setup.sh run` to build and run, `setup.sh test` for the tests
+# too. Packages are installed only when run as root; other users get a list of what is missing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mode=${1:-run}

@@ -1,7 +1,7 @@
-//! Writes the synthetic demonstrations of `examples/demonstrations`: the same bytes at every run.
+//! Writes the synthetic demonstrations of `examples/demonstrations`: the same bytes on every run.
 //!
-//! `cargo run --example generate_demonstrations [DIRECTORY]`; see the README beside the files for what they show.
-//! One ChaCha stream per demonstration, so that adding one leaves the others as they are.
+//! `cargo run --example generate_demonstrations [DIRECTORY]`; the README next to the files describes them.
+//! Each demonstration has its own ChaCha stream, so that adding one leaves the others unchanged.
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
@@ -10,7 +10,7 @@ use std::path::Path;
 
 const SEED: u64 = 20_171_026;
 
-/// Centres of the path a hand with wax took over a panel, mm; one each second.
+/// Path of a waxing hand over a panel, robot base frame, mm; one point per second.
 const WAX_GOALS_MM: [[f64; 3]; 9] = [
     [461.24, -502.73, 303.98],
     [457.61, -516.86, 303.03],
@@ -57,7 +57,7 @@ fn jitter(rng: &mut ChaCha8Rng, width: f64) -> f64 {
     rng.random_range(-width..width)
 }
 
-/// Piecewise linear through `knots` at the middles of n equal parts of [0, 1], constant before and after.
+/// Piecewise linear interpolation of `knots`, placed at the centres of n equal parts of [0, 1]; constant outside.
 fn through(knots: &[f64], x: f64) -> f64 {
     let place = (x * knots.len() as f64 - 0.5).clamp(0.0, (knots.len() - 1) as f64);
     let before = (0..knots.len() - 1).rfind(|i| *i as f64 <= place).unwrap_or(0);
@@ -80,7 +80,7 @@ fn knots_with_means(means: &[f64]) -> Vec<f64> {
     knots
 }
 
-/// Object centroid in mm at about 20 Hz, 9.0 to 9.9 s; each showing is shifted a little and trembles.
+/// Object centroid in mm at about 20 Hz over 9.2 to 9.8 s, slightly shifted and jittered.
 fn wax(demonstration: u64) -> String {
     let mut rng = rng(1, demonstration);
     let axes: Vec<Vec<f64>> = (0..3).map(|axis| knots_with_means(&WAX_GOALS_MM.map(|goal| goal[axis]))).collect();
@@ -99,8 +99,8 @@ fn wax(demonstration: u64) -> String {
     text
 }
 
-/// Percentage of a wall of 16 squares that is painted, at about 10 Hz: it rests at 0, then square by square, then at
-/// 100; 17 parts of about a second. Squares are finished a little early or late.
+/// Painted percentage of a wall of 16 squares at about 10 Hz: 0 at first, then one square after another up to 100, over
+/// 17 parts of about a second. Squares are finished slightly early or late.
 fn paint(demonstration: u64) -> String {
     let mut rng = rng(2, demonstration);
     let duration_s = 17.2 + 0.2 * demonstration as f64;
@@ -115,7 +115,7 @@ fn paint(demonstration: u64) -> String {
     text
 }
 
-/// Two streams: hand pose (20 Hz) moving to and fro over the board, wrist force (10 Hz) pressing on the way.
+/// Two streams: hand pose (20 Hz) moving back and forth over the board, wrist force (10 Hz) while pressing.
 fn iron(demonstration: u64) -> Vec<File> {
     let mut rng = rng(3, demonstration);
     let duration_s = 12.0 + 0.5 * demonstration as f64;
