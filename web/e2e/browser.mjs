@@ -1,4 +1,4 @@
-// Debian's chromium, a page that remembers everything that went wrong in it, and the accessibility check.
+// Debian's chromium, a page that records everything that goes wrong in it, and the accessibility check.
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 import { chromium } from "playwright-core";

@@ -1,4 +1,4 @@
-// What the dashboard must do, each as one check.
+// The dashboard's required behaviour, one check each.
 import assert from "node:assert/strict";
 import { accessibility, colours, openPage, overflow } from "./browser.mjs";
 import { startSlowJob, waitForJob } from "./data.mjs";
@@ -20,7 +20,7 @@ const pagesOf = (data) => [
   { path: `/actions/${data.loop}`, text: "Execute on a robot" },
   { path: "/robots", text: "wall of 4 x 4" },
   { path: `/robots/${data.robot}`, text: "shoulder_roll" },
-  { path: "/no/such/page", text: "No such page" },
+  { path: "/no/such/page", text: "Page not found" },
 ];
 
 async function everyPage({ browser, server, data }) {
@@ -67,7 +67,7 @@ async function signedOut({ browser, server }) {
   await page.getByRole("heading", { name: "Jobs" }).waitFor();
   await page.context().clearCookies();
   await page.getByRole("link", { name: "Robots" }).click();
-  await page.getByRole("heading", { name: "This browser holds no valid token" }).waitFor();
+  await page.getByRole("heading", { name: "This browser has no valid token" }).waitFor();
   await page.context().close();
 }
 
@@ -123,18 +123,18 @@ async function demonstrationsToJob({ browser, server }) {
   const bad = { name: "ragged.csv", mimeType: "text/csv", buffer: Buffer.from("time_s,painted [%]\n0,0\n1\n2,nan\n") };
   await page.getByLabel("Files to upload").setInputFiles(bad);
   const refusal = page.getByRole("alert");
-  await refusal.getByText("ragged was refused").waitFor();
+  await refusal.getByText("ragged was rejected").waitFor();
   assert.match(await refusal.textContent(), /row|3/, "the refusal names the place");
   page.troubles = page.troubles.filter((trouble) => !trouble.includes("422"));
 
   const rows = (pace) => Array.from({ length: 50 }, (_, step) => `${(step * pace).toFixed(2)},${step * 2}`).join("\n");
   const good = (name, pace) => ({ name, mimeType: "text/csv", buffer: Buffer.from(`time_s,painted [%]\n${rows(pace)}\n`) });
   await page.getByLabel("Files to upload").setInputFiles([good("rollers-1.csv", 0.2), good("rollers-2.csv", 0.21)]);
-  await page.getByText("rollers-2 was read").waitFor();
-  await page.getByRole("checkbox", { name: "Choose rollers-1" }).check();
-  await page.getByRole("checkbox", { name: "Choose rollers-2" }).check();
+  await page.getByText("rollers-2 was imported").waitFor();
+  await page.getByRole("checkbox", { name: "Select rollers-1" }).check();
+  await page.getByRole("checkbox", { name: "Select rollers-2" }).check();
   await page.getByLabel("Name of the action").fill("rollers");
-  await page.getByLabel("Shortest time between goals").fill("2");
+  await page.getByLabel("Min. time between goals").fill("2");
   await page.getByText("gives about 5 goals").waitFor();
   await page.getByRole("button", { name: "Generalize" }).click();
   await page.getByRole("link", { name: "Open the action" }).click();
@@ -145,7 +145,7 @@ async function demonstrationsToJob({ browser, server }) {
   assert.equal(await page.getByLabel("Method", { exact: true }).inputValue(), "particle", "a wall suggests its method");
   await page.getByLabel("Method", { exact: true }).selectOption("sst");
   assert.equal(await page.getByLabel("Population P").inputValue(), "10", "a wall suggests a small population");
-  await page.getByText("Evaluations, about").waitFor();
+  await page.getByText("Estimated evaluations").waitFor();
   await page.getByLabel("Seed").fill("5");
   await page.getByRole("button", { name: "Start job" }).click();
   await page.getByText("Succeeded", { exact: true }).waitFor({ timeout: 30_000 });
@@ -174,7 +174,7 @@ async function keyboard({ browser, server, data }) {
   await signIn(page, server);
   await page.getByRole("heading", { name: "Jobs" }).waitFor();
   await page.keyboard.press("Tab");
-  assert.equal(await page.evaluate(() => document.activeElement?.textContent), "Skip to the content");
+  assert.equal(await page.evaluate(() => document.activeElement?.textContent), "Skip to content");
   await page.goto(`${server.url}/robots/${data.robot}`);
   const slider = page.getByRole("slider", { name: /shoulder_pitch/ });
   await slider.focus();
@@ -185,8 +185,8 @@ async function keyboard({ browser, server, data }) {
 }
 
 export const CHECKS = [
-  { name: "the token's address signs in, unknown interfaces stay problems", run: token },
-  { name: "a lost token is told with where to find it", run: signedOut },
+  { name: "the token's address signs in, unknown API paths answer with problems", run: token },
+  { name: "without a token the page says where to find one", run: signedOut },
   { name: "jobs list follows jobs", run: jobsListIsLive },
   ...live,
   { name: "replay plays, scrubs and exports", run: replay },

@@ -1,4 +1,4 @@
-// Fills a server over its interface: two actions from recorded-like demonstrations, a robot, two worlds, jobs.
+// Fills a server through its API: two actions from synthetic demonstrations, a robot, two worlds, jobs.
 import { readFileSync } from "node:fs";
 
 const EXAMPLES = new URL("../../examples/", import.meta.url);

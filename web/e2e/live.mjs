@@ -37,7 +37,7 @@ async function steering({ browser, server, data }) {
   await grows(page);
 
   await page.getByRole("button", { name: "Cancel" }).click();
-  await page.getByRole("button", { name: "Really cancel" }).click();
+  await page.getByRole("button", { name: "Confirm cancel" }).click();
   await state(page, "Cancelled");
   assert.deepEqual(page.troubles, []);
   await page.context().close();

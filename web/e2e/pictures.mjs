@@ -1,4 +1,4 @@
-// The pictures of docs/images, taken only when asked for.
+// Screenshots for docs/images, taken only on request.
 import { mkdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { openPage } from "./browser.mjs";

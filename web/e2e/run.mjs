@@ -1,7 +1,7 @@
 // The dashboard in a real browser against the real server: `npm run test:e2e [-- --screenshots]`.
 //
-// Each check opens pages as a person would, and fails on wrong content, on any console error, on any WCAG A or AA
-// violation, and on anything wider than the screen. With --screenshots, docs/images is renewed.
+// Each check opens pages as a person would, and fails on wrong content, any console error, any WCAG A or AA violation, and
+// anything wider than the screen. With --screenshots, docs/images is updated.
 import { CHECKS } from "./checks.mjs";
 import { launch } from "./browser.mjs";
 import { fill } from "./data.mjs";

@@ -1,4 +1,4 @@
-// Starts the real binary on a free port with a fresh data directory, and speaks to it as a script would.
+// Starts the real binary on a free port with a fresh data directory, and talks to it as a script would.
 import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -1,4 +1,4 @@
-// Steps several checks share.
+// Steps shared by several checks.
 
 /** Opens the address the server printed. */
 export async function signIn(page, server) {

@@ -1,17 +1,17 @@
-// The one client of the REST interface, typed by openapi.json. Every failure is an ApiError.
+// The only client of the REST API, typed by openapi.json. Every failure is an ApiError.
 
 import createClient from "openapi-fetch";
 import type { paths } from "./schema";
 import { session } from "./session";
 
-/** One wrong place of a request. */
+/** One invalid field of a request. */
 export interface WrongPlace {
   pointer: string;
   code: string;
   detail: string;
 }
 
-/** A refused or failed request: RFC 9457 problem details, or what is known when the answer was none. */
+/** A rejected or failed request: RFC 9457 problem details, or whatever is known if the response has none. */
 export class ApiError extends Error {
   readonly status: number;
   readonly code: string;
@@ -28,7 +28,7 @@ export class ApiError extends Error {
   }
 }
 
-/** Reads problem details of any shape; never throws. */
+/** Parses problem details of any shape; never throws. */
 export function problemFrom(status: number, body: unknown): ApiError {
   const problem = typeof body === "object" && body !== null ? (body as Record<string, unknown>) : {};
   const text = (key: string) => (typeof problem[key] === "string" ? problem[key] : undefined);
@@ -52,7 +52,7 @@ async function checkedFetch(request: Request): Promise<Response> {
 
 export const api = createClient<paths>({ fetch: checkedFetch });
 
-/** The body of a successful answer. */
+/** Unwraps the body of a successful response; throws an ApiError otherwise. */
 export async function body<T>(answer: Promise<{ data?: T }>): Promise<T> {
   const { data } = await answer;
   if (data === undefined) throw new ApiError(0, "empty_answer", "the server sent an empty answer");

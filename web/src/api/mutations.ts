@@ -1,10 +1,10 @@
-// Writing: one hook an intention. Each refreshes what it changed.
+// Writes: one hook per user action. Each invalidates the queries it affects.
 
 import { useMutation, useQueryClient } from "@tanstack/react-query";
 import { api, body } from "./client";
 import type { CreateJob, Job } from "./types";
 
-/** One key a submission: a repeated click or a lost answer cannot start a job twice. */
+/** One idempotency key per submission: a repeated click or a lost response cannot start a job twice. */
 const idempotencyKey = () => crypto.randomUUID();
 
 export function useCreateJob() {
@@ -64,7 +64,7 @@ export function useUpload() {
       if (units.trim() !== "") form.set("units", units);
       if (alignStart) form.set("clock_policy", "align_by_start");
       for (const file of files) form.append("files", file, file.name);
-      // The document describes the form's fields; a browser sends a FormData.
+      // openapi.json describes the form's fields as an object; a browser sends a FormData.
       return body(api.POST("/api/v1/demonstrations", { body: form as never, bodySerializer: () => form }));
     },
     onSuccess: () => queries.invalidateQueries({ queryKey: ["demonstrations"] }),

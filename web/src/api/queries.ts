@@ -1,10 +1,10 @@
-// Reading: one hook a resource. Keys begin with the resource's name, so that a change can refresh all that shows it.
+// Reads: one hook per resource. Query keys start with the resource's name, so that a write can invalidate all of them.
 
 import { useInfiniteQuery, useQuery } from "@tanstack/react-query";
 import { isFinal } from "../lib/states";
 import { api, body } from "./client";
 
-/** How often lists are asked again while something in them moves, and while nothing does. */
+/** Polling intervals of lists, with and without active items. */
 const LIVELY_MS = 1500;
 const CALM_MS = 4000;
 
@@ -28,7 +28,7 @@ export function useJob(id: string) {
   return useQuery({
     queryKey: ["jobs", id],
     queryFn: () => body(api.GET("/api/v1/jobs/{id}", { params: { path: { id } } })),
-    // The stream tells every change; this only heals a missed one.
+    // The stream reports every change; polling only recovers a missed one.
     refetchInterval: ({ state }) => (state.data !== undefined && isFinal(state.data.state) ? false : CALM_MS),
   });
 }

@@ -1,4 +1,4 @@
-// Whether this browser holds a valid token: the server alone knows, and says so with a 401.
+// Whether this browser has a valid token. Only the server knows; a 401 tells us it has not.
 
 type Listener = () => void;
 

@@ -1,4 +1,4 @@
-// Names for the parts of the REST interface this dashboard speaks of.
+// Short names for the schemas of the REST API that this dashboard uses.
 
 import type { components } from "./schema";
 

@@ -1,4 +1,4 @@
-// Providers and the table of pages.
+// Providers and the route table.
 
 import { QueryClient, QueryClientProvider } from "@tanstack/react-query";
 import { useSyncExternalStore } from "react";
@@ -24,7 +24,7 @@ const queries = new QueryClient({
   defaultOptions: {
     queries: {
       staleTime: 1000,
-      // What the server refused it will refuse again; what did not reach it may.
+      // A request the server rejected will be rejected again; one that did not reach it may succeed.
       retry: (failures, error) => failures < 2 && !(error instanceof ApiError && error.status >= 400 && error.status < 500),
     },
   },

@@ -1,7 +1,7 @@
 import { Component, type ReactNode } from "react";
 import { Problem } from "../ui/feedback";
 
-/** A page that breaks says so; the navigation stays usable. */
+/** Shows the error of a page that crashed; the navigation stays usable. */
 export class ErrorBoundary extends Component<{ children: ReactNode }, { error: Error | null }> {
   override state: { error: Error | null } = { error: null };
 
@@ -14,7 +14,7 @@ export class ErrorBoundary extends Component<{ children: ReactNode }, { error: E
     if (error === null) return this.props.children;
     return (
       <div className="stack">
-        <Problem error={error} title="This page broke" />
+        <Problem error={error} title="This page crashed" />
         <div>
           <button type="button" className="button" onClick={() => window.location.reload()}>
             Reload

@@ -15,7 +15,7 @@ export function Layout({ children }: { children: ReactNode }) {
   return (
     <div className="shell">
       <a className="skip" href="#content">
-        Skip to the content
+        Skip to content
       </a>
       <header className="side">
         <Link className="brand" to="/jobs">
@@ -30,7 +30,7 @@ export function Layout({ children }: { children: ReactNode }) {
           ))}
         </nav>
         <p className="side-foot muted">
-          Interfaces: <a href="/openapi.json">OpenAPI</a>
+          API: <a href="/openapi.json">OpenAPI</a>
         </p>
       </header>
       <main className="content" id="content" tabIndex={-1}>

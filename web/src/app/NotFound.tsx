@@ -4,9 +4,9 @@ import { PageHead } from "../ui/basics";
 export function NotFound() {
   return (
     <>
-      <PageHead title="No such page" lead="The address leads nowhere in this dashboard." />
+      <PageHead title="Page not found" lead="This dashboard has no page at this address." />
       <Link className="button" to="/jobs">
-        To the jobs
+        Go to jobs
       </Link>
     </>
   );

@@ -1,6 +1,6 @@
 import { Mark } from "../ui/icons";
 
-/** Shown after a 401: the server was restarted with another token, or this browser never had one. */
+/** Shown after a 401: the server was restarted with a new token, or this browser never had one. */
 export function SignedOut() {
   return (
     <main className="content" style={{ maxWidth: 620 }}>
@@ -8,14 +8,14 @@ export function SignedOut() {
       <section className="card stack">
         <div className="row">
           <Mark />
-          <h1>This browser holds no valid token</h1>
+          <h1>This browser has no valid token</h1>
         </div>
         <p>
-          When it starts, <code>cgda serve</code> prints a ready-to-open address that ends in <code>?token=…</code>. Open that
-          address once; the token becomes a cookie of this browser.
+          At start-up, <code>cgda serve</code> prints an address that ends in <code>?token=…</code>. Open it once; the token
+          is then stored as a cookie in this browser.
         </p>
         <p className="muted">
-          A server that was restarted with a new token needs its new address. In a service the line is in its log, for
+          After a restart with a new token, open the new address. If the server runs as a service, look for it in the log, for
           example <code>journalctl -u cgda</code> or <code>docker logs cgda</code>.
         </p>
         <div>

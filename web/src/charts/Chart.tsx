@@ -1,4 +1,4 @@
-// Charts with their chunk loaded when the first one is shown.
+// Charts; their chunk is loaded on first use.
 
 import { lazy, Suspense, type ComponentProps } from "react";
 

@@ -1,4 +1,4 @@
-// A line chart on uPlot: thousands of points without a freeze, colours of the scheme, a text alternative.
+// A line chart based on uPlot: fast with thousands of points, themed colours, a text alternative.
 
 import { useEffect, useRef } from "react";
 import uPlot from "uplot";
@@ -8,27 +8,27 @@ import { token, useDarkScheme } from "./theme";
 
 export interface ChartSeries {
   label: string;
-  /** One value for each x; null leaves a gap. */
+  /** One value per x; null leaves a gap. */
   values: (number | null)[];
-  /** Design token of the colour. */
+  /** Design token for the colour. */
   color: string;
   stepped?: boolean;
   /** Points only, without a line between them. */
   points?: boolean;
   dashed?: boolean;
-  /** Draws over gaps, for series that share x with others. */
+  /** Connects points across gaps, for series that share x with others. */
   spanGaps?: boolean;
   width?: number;
 }
 
 interface Props {
-  /** What the chart shows, for those who cannot see it. */
+  /** Text alternative. */
   summary: string;
   x: number[];
   xLabel: string;
   yLabel: string;
   series: ChartSeries[];
-  /** x at which a thin vertical line is drawn. */
+  /** x positions of thin vertical lines. */
   marks?: number[];
   height?: number;
   legend?: boolean;

@@ -1,4 +1,4 @@
-// Canvases cannot inherit CSS: the colours of the present scheme, read once a scheme.
+// The current scheme's colours for canvases, which cannot inherit CSS; read once per scheme.
 
 import { useSyncExternalStore } from "react";
 
@@ -9,7 +9,7 @@ function subscribe(listener: () => void): () => void {
   return () => scheme.removeEventListener("change", listener);
 }
 
-/** True in the dark scheme; the component renders again when it changes. */
+/** True in the dark scheme; re-renders the component on change. */
 export function useDarkScheme(): boolean {
   return useSyncExternalStore(subscribe, () => scheme.matches);
 }

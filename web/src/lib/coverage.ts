@@ -1,4 +1,4 @@
-// Which cells of a wall a tool has painted: strictly nearer than the radius to the cell's centre at a visited pose.
+// Cells of a wall painted by a tool: those whose centre is strictly closer than the radius to a visited pose.
 
 export type Point = readonly [number, number, number];
 
@@ -24,7 +24,7 @@ export function cellCentres(grid: WallGrid): Point[] {
   });
 }
 
-/** For each cell the index of the first visited point that painted it, or null. */
+/** For each cell, the index of the first visited point that painted it, or null. */
 export function paintedBy(grid: WallGrid, visited: readonly Point[]): (number | null)[] {
   return cellCentres(grid).map((centre) => {
     const first = visited.findIndex((point) => distance(point, centre) < grid.radius_m);

@@ -1,4 +1,4 @@
-// Min-max decimation: a drawn curve keeps every extreme and its ends, whatever the number of samples behind it.
+// Min-max decimation: a drawn curve keeps its extremes and its ends, however many samples it has.
 
 /** Indices (increasing) of at most `maxPoints` samples of `values`: the ends, and each bucket's minimum and maximum. */
 export function decimateMinMax(values: ArrayLike<number>, maxPoints: number): number[] {

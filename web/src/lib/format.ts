@@ -1,4 +1,4 @@
-// How values are written for people. Every function takes SI or the unit in its name and returns text.
+// Formatting of values for display. Every function takes SI, or the unit in its name, and returns text.
 
 const MISSING = "–";
 
@@ -24,7 +24,7 @@ function integersOr(value: number, decimals: number): string {
   return new Intl.NumberFormat("en-GB", { maximumFractionDigits: decimals }).format(value);
 }
 
-/** A value with its unit, the unit left out when empty: (94.4, "%") -> "94.4 %". */
+/** A value with its unit, if it has one: (94.4, "%") -> "94.4 %". */
 export function formatQuantity(value: number | null | undefined, unit: string | null | undefined, digits = 4): string {
   const text = formatNumber(value, digits);
   return unit && text !== MISSING ? `${text}\u202f${unit}` : text;
@@ -45,7 +45,7 @@ function joinUnits(large: number, largeUnit: string, small: number, smallUnit: s
   return small === 0 ? `${large} ${largeUnit}` : `${large} ${largeUnit} ${small} ${smallUnit}`;
 }
 
-/** "just now", "12 s ago", "3 min ago", then the date. */
+/** "just now", "12 s ago", "3 min ago"; the date if older. */
 export function formatAgo(atMs: number | null | undefined, nowMs: number): string {
   if (atMs == null) return MISSING;
   const seconds = Math.round((nowMs - atMs) / 1000);
@@ -65,7 +65,7 @@ export function formatDateTime(atMs: number | null | undefined): string {
   return `${day} ${two(date.getHours())}:${two(date.getMinutes())}:${two(date.getSeconds())}`;
 }
 
-/** A share between 0 and 1 as whole percent, never 100 % before it is done: 0.999 -> "99 %". */
+/** A share between 0 and 1 as whole percent, rounded down so that 100 % means done: 0.999 -> "99 %". */
 export function formatPercent(share: number): string {
   const bounded = Math.min(1, Math.max(0, share));
   return `${Math.floor(bounded * 100 + 1e-9)}\u202f%`;

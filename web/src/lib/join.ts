@@ -1,4 +1,4 @@
-// Several curves with their own x on one common x, as a chart needs them.
+// Merges curves with different x onto a common x, as a chart requires.
 
 export interface Points {
   x: readonly number[];
@@ -7,7 +7,7 @@ export interface Points {
 
 export interface Joined {
   x: number[];
-  /** One column for each curve; null where it has no value. */
+  /** One column per curve; null at an x where the curve has no value. */
   columns: (number | null)[][];
 }
 

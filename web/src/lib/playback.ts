@@ -1,11 +1,11 @@
-// Where a trajectory is at a time.
+// Sampling a trajectory at a point in time.
 
 export interface TimedPositions {
   t_s: number;
   positions: readonly number[];
 }
 
-/** Index of the last point at or before `time`; 0 before the first. `points` are in the order of time. */
+/** Index of the last point at or before `time`; 0 before the first. `points` must be sorted by time. */
 export function indexAt(points: readonly TimedPositions[], time: number): number {
   let low = 0;
   let high = points.length - 1;
@@ -17,7 +17,7 @@ export function indexAt(points: readonly TimedPositions[], time: number): number
   return Math.max(0, low);
 }
 
-/** Joint positions at `time`, linear between points and held outside. */
+/** Joint positions at `time`: linear between points, constant outside. */
 export function positionsAt(points: readonly TimedPositions[], time: number): number[] {
   const index = indexAt(points, time);
   const from = points[index];
@@ -28,12 +28,12 @@ export function positionsAt(points: readonly TimedPositions[], time: number): nu
   return from.positions.map((value, joint) => value + share * ((to.positions[joint] ?? value) - value));
 }
 
-/** Names and values side by side. */
+/** Pairs names with values, by position. */
 export function named(names: readonly string[], values: readonly number[]): Record<string, number> {
   return Object.fromEntries(names.map((name, index) => [name, values[index] ?? 0]));
 }
 
-/** How many goals are behind `time`; a goal counts when its time is reached within a rounding error. */
+/** Number of goals reached by `time`; a goal counts if its time is reached within rounding error. */
 export function goalsReached(goalTimes: readonly number[], time: number): number {
   return goalTimes.filter((goal) => goal <= time + 1e-9).length;
 }

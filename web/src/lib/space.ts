@@ -1,11 +1,11 @@
-// Whether features are a position in space, and where it lies in metres.
+// Recognizes features that form a position in space and converts it to metres.
 
 import type { Feature } from "../api/types";
 import type { Point } from "./coverage";
 
 const METRES: Readonly<Record<string, number>> = { m: 1, cm: 0.01, mm: 0.001 };
 
-/** Reads the x, y, z of a row in metres; null when the features hold no position of one known unit. */
+/** Returns a reader of a row's x, y, z in metres; null if the features do not form a position in one known unit. */
 export function positionReader(features: readonly Feature[]): ((row: readonly number[]) => Point) | null {
   const axes = ["x", "y", "z"].map((name) => features.findIndex((feature) => feature.name.toLowerCase() === name));
   const scales = axes.map((axis) => METRES[features[axis]?.unit ?? ""]);

@@ -1,4 +1,4 @@
-// Job states as people read them.
+// Labels and tones of job states.
 
 import type { JobState } from "../api/types";
 
@@ -7,7 +7,7 @@ export type Tone = "info" | "good" | "warn" | "bad" | "idle";
 interface StateInfo {
   label: string;
   tone: Tone;
-  /** Something is going on without anybody's doing. */
+  /** The job is making progress without user action. */
   active: boolean;
 }
 
@@ -26,7 +26,7 @@ const STATES: Record<JobState, StateInfo> = {
   FAILED: { label: "Failed", tone: "bad", active: false },
 };
 
-/** A state newer than this dashboard is shown by its own name. */
+/** Label and tone of a state; a state this dashboard does not know is shown under its own name. */
 export function stateInfo(state: JobState): StateInfo {
   return (STATES as Partial<Record<string, StateInfo>>)[state] ?? { label: state, tone: "idle", active: false };
 }

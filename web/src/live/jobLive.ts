@@ -1,8 +1,8 @@
-// What the events of one job add up to. Pure: (state, event) -> state, so that a replay gives what was watched live.
+// Folds the events of one job into a view. Pure, (state, event) -> state, so that a replay gives the same view as watching.
 
 import type { GoalProgress, JobEvent, JobProgress, JobState, TrialProgress } from "../api/types";
 
-/** Best discrepancy against evaluations of one repetition, in parallel columns. */
+/** Best discrepancy over evaluations within one repetition, as parallel columns. */
 export interface Curve {
   repetition: number;
   evaluations: number[];
@@ -10,7 +10,7 @@ export interface Curve {
   goal: number[];
 }
 
-/** A repetition that ended. */
+/** A finished repetition. */
 export type FinishedRun = Extract<JobEvent, { type: "run" }>;
 
 export interface LiveJob {
@@ -19,15 +19,15 @@ export interface LiveJob {
   reason: string | null;
   attempt: number | null;
   progress: JobProgress | null;
-  /** Goals finished in the repetition shown, by index. */
+  /** Finished goals of the repetition shown, by index. */
   goals: GoalProgress[];
-  /** Trials of the repetition shown, where the method tells each one. */
+  /** Trials of the repetition shown; empty if the method does not report them. */
   trials: TrialProgress[];
   curve: Curve;
   runs: FinishedRun[];
 }
 
-/** Curves longer than this lose every second point; a screen shows fewer. */
+/** Curves longer than this drop every second point; a screen cannot show more. */
 export const MAX_CURVE = 4000;
 
 const emptyCurve = (repetition: number): Curve => ({ repetition, evaluations: [], discrepancy: [], goal: [] });
@@ -44,7 +44,7 @@ export const INITIAL: LiveJob = {
   runs: [],
 };
 
-/** Adds events; one already seen (a replay after a reconnection) changes nothing. */
+/** Adds events; those already seen (replayed after a reconnect) are ignored. */
 export function applyEvents(live: LiveJob, events: readonly JobEvent[]): LiveJob {
   return events.reduce(applyEvent, live);
 }
@@ -74,7 +74,7 @@ function withProgress(live: LiveJob, progress: JobProgress): LiveJob {
   const sameRun = live.curve.repetition === repetition;
   const started = sameRun ? live.curve : emptyCurve(repetition);
   const curve = withPoint(started, progress.evaluations, progress.discrepancy ?? null, progress.goal_index);
-  // Streamed progress leaves finished goals to the goal events; a stream that begins late may carry them.
+  // Streamed progress usually leaves finished goals to the goal events, but may carry them if the stream starts late.
   const goals = finished.length > 0 ? finished : sameRun ? live.goals : [];
   return { ...live, progress, curve, goals };
 }
@@ -88,14 +88,14 @@ function withGoal(live: LiveJob, goal: GoalProgress): LiveJob {
   return { ...live, goals, curve };
 }
 
-/** A trial of a later repetition begins anew. */
+/** Adds a trial; a trial of a later repetition starts a new list. */
 function withTrial(trials: TrialProgress[], trial: TrialProgress): TrialProgress[] {
   return [...trials.filter((other) => other.repetition === trial.repetition && other.index < trial.index), trial];
 }
 
 function withPoint(curve: Curve, evaluations: number, discrepancy: number | null, goal: number): Curve {
   const last = curve.evaluations.at(-1) ?? -1;
-  // A job resumed from its checkpoint reports again what it had reported: the curve goes on where it was.
+  // A job resumed from a checkpoint repeats earlier reports; the curve continues where it was.
   if (discrepancy === null || evaluations <= last) return curve;
   const thinned = curve.evaluations.length >= MAX_CURVE ? thin(curve) : curve;
   return {

@@ -1,16 +1,16 @@
-// Server-sent events over fetch. Unlike EventSource this sees the status (401, 404, 410), and the keep-alive comments, so
-// that a quiet stream and a dead one can be told apart.
+// Server-sent events over fetch. Unlike EventSource, it exposes the status (401, 404, 410) and the keep-alive comments, so
+// that a quiet stream can be distinguished from a dead one.
 
 /** One dispatched event. */
 export interface ServerEvent {
-  /** The durable sequence number as text; "" when the server gave none. */
+  /** The durable sequence number as text; "" if the server sent none. */
   id: string;
   /** Event name, "message" by default. */
   type: string;
   data: string;
 }
 
-/** An incremental parser of the event-stream format (WHATWG HTML 9.2.6): text in, whole events out. */
+/** Incremental parser of the event-stream format (WHATWG HTML 9.2.6): text in, complete events out. */
 export class SseParser {
   private rest = "";
   private id = "";
@@ -48,7 +48,7 @@ export class SseParser {
   }
 }
 
-/** Milliseconds to wait before reconnection number `attempt` (from 0): 0.5 s doubling to 15 s, spread by `random` in [0, 1). */
+/** Delay in ms before reconnection number `attempt` (from 0): 0.5 s, doubling up to 15 s, jittered by `random` in [0, 1). */
 export function backoffMs(attempt: number, random: number): number {
   const ceiling = Math.min(15_000, 500 * 2 ** Math.min(attempt, 10));
   return ceiling / 2 + (ceiling / 2) * random;

@@ -3,23 +3,23 @@
 import { useEffect, useRef, useState } from "react";
 import { SseParser, backoffMs, type ServerEvent } from "./sse";
 
-/** `live` once connected; `reconnecting` after a loss; `ended` when the server has nothing more to send. */
-export type StreamStatus = "connecting" | "live" | "reconnecting" | "ended" | "refused";
+/** `live` once connected; `reconnecting` after a loss; `ended` once the server has nothing more to send. */
+export type StreamStatus = "connecting" | "live" | "reconnecting" | "ended" | "rejected";
 
 export interface StreamHealth {
   status: StreamStatus;
-  /** When anything, an event or a keep-alive, last arrived (ms since epoch). */
+  /** Time of the last event or keep-alive, ms since the epoch. */
   lastSignalMs: number | null;
 }
 
 interface Options {
-  /** Undefined: no stream. */
+  /** No stream is opened if undefined. */
   url: string | undefined;
-  /** Called at most once an animation frame with all events that arrived since. Returns true when the stream is complete. */
+  /** Called at most once per animation frame with the events received since; returns true if the stream is complete. */
   onEvents: (events: ServerEvent[]) => boolean;
 }
 
-/** Subscribes to `url` and hands events on in batches. */
+/** Subscribes to `url` and delivers events in batches. */
 export function useEventStream({ url, onEvents }: Options): StreamHealth {
   const [health, setHealth] = useState<StreamHealth>({ status: "connecting", lastSignalMs: null });
   const handler = useRef(onEvents);
@@ -47,7 +47,7 @@ export function useEventStream({ url, onEvents }: Options): StreamHealth {
     };
     const schedule = (events: ServerEvent[]) => {
       queue.push(...events);
-      // A hidden page gets no animation frames: a timer keeps it counting.
+      // A hidden page gets no animation frames, so a timer takes over.
       if (frame === 0) frame = window.setTimeout(flush, 60);
     };
     const lost = (status: StreamStatus) => {
@@ -64,7 +64,7 @@ export function useEventStream({ url, onEvents }: Options): StreamHealth {
   return health;
 }
 
-/** Answers that will not change by asking again. */
+/** Statuses after which reconnecting is pointless. */
 const REFUSALS = new Set([400, 401, 403, 404, 410]);
 
 async function follow(
@@ -81,7 +81,7 @@ async function follow(
         headers: { accept: "text/event-stream", ...(lastId === "" ? {} : { "last-event-id": lastId }) },
       });
       if (response.status === 204 || REFUSALS.has(response.status)) {
-        onLost(response.status === 204 ? "ended" : "refused");
+        onLost(response.status === 204 ? "ended" : "rejected");
         return;
       }
       if (response.ok && response.body !== null) {
@@ -90,7 +90,7 @@ async function follow(
         lastId = await pump(response.body, lastId, onSignal);
       }
     } catch {
-      // A lost connection and an abort look alike; the loop's condition tells them apart.
+      // A lost connection and an abort look the same here; the loop's condition distinguishes them.
     }
     onLost("reconnecting");
     await pause(backoffMs(attempt, Math.random()), signal);

@@ -1,4 +1,4 @@
-// The live view of one job: the events since its beginning, added up, and the health of their stream.
+// The live view of one job: all its events folded together, and the health of their stream.
 
 import { useQueryClient } from "@tanstack/react-query";
 import { useCallback, useState } from "react";
@@ -10,7 +10,7 @@ import { useEventStream, type StreamHealth } from "./useEventStream";
 
 const RESYNC = "resync";
 
-/** The job's event; null for anything else the stream may carry. */
+/** Parses a job event; null for anything else in the stream. */
 function read(event: ServerEvent): JobEvent | null {
   try {
     const parsed = JSON.parse(event.data) as Partial<JobEvent>;

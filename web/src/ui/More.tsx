@@ -2,7 +2,7 @@ import type { UseInfiniteQueryResult } from "@tanstack/react-query";
 
 type Pages = Pick<UseInfiniteQueryResult, "hasNextPage" | "isFetchingNextPage" | "fetchNextPage">;
 
-/** Asks for the next page of a list, while there is one. */
+/** Button that loads the next page of a list; hidden after the last page. */
 export function More({ query }: { query: Pages }) {
   if (!query.hasNextPage) return null;
   return (

@@ -1,4 +1,4 @@
-// Where a fitness value comes from. The colours are the same wherever evaluations are drawn.
+// Legend of where fitness values come from; the colours are the same in every chart of evaluations.
 
 const KINDS = [
   { kind: "simulated", meaning: "executed in the simulation" },
@@ -10,7 +10,7 @@ const KINDS = [
 
 export type Provenance = (typeof KINDS)[number]["kind"];
 
-/** The legend, with the number of evaluations of each kind that is known. */
+/** The legend, with a count next to each kind that has one. */
 export function ProvenanceLegend({ counts }: { counts: Partial<Record<Provenance, string>> }) {
   return (
     <ul className="legend" aria-label="Provenance of evaluations">

@@ -1,4 +1,4 @@
-// How fresh what is shown is: "live", or "data is N s old" once the stream stalls.
+// Badge for the age of the displayed data: "live", or "data is N s old" once the stream stalls.
 
 import type { StreamHealth } from "../live/useEventStream";
 import { formatDuration } from "../lib/format";
@@ -12,7 +12,7 @@ export function StreamHealthBadge({ health }: { health: StreamHealth }) {
   const now = useNow();
   if (health.status === "ended") return null;
   if (health.status === "connecting") return <span className="stale">Connecting…</span>;
-  if (health.status === "refused") return <Badge tone="bad">No live data: the server refused the stream</Badge>;
+  if (health.status === "rejected") return <Badge tone="bad">No live data: the server rejected the stream</Badge>;
   const ageS = health.lastSignalMs === null ? null : (now - health.lastSignalMs) / 1000;
   const stalled = health.status === "reconnecting" || (ageS !== null && ageS > STALLED_AFTER_S);
   if (!stalled) return <Badge tone="good">Live</Badge>;

@@ -1,4 +1,4 @@
-// Small parts every page is made of.
+// Small building blocks of every page.
 
 import type { ReactNode } from "react";
 import { Link } from "react-router";

@@ -1,4 +1,4 @@
-// Waiting, failing, and what the server found wrong.
+// Loading states, notices and error reports.
 
 import type { UseQueryResult } from "@tanstack/react-query";
 import type { ReactNode } from "react";
@@ -14,8 +14,8 @@ export function Notice({ tone, title, children }: { tone: Tone; title: string; c
   );
 }
 
-/** What failed, each wrong place, and the id to look for in the server's log. */
-export function Problem({ error, title = "That did not work" }: { error: Error; title?: string }) {
+/** An error with its invalid fields and the request id under which it appears in the server's log. */
+export function Problem({ error, title = "Something went wrong" }: { error: Error; title?: string }) {
   const places = error instanceof ApiError ? error.errors : [];
   const requestId = error instanceof ApiError ? error.requestId : undefined;
   return (
@@ -50,11 +50,11 @@ interface LoadedProps<T> {
   children: (data: T) => ReactNode;
 }
 
-/** The data as soon as there is some; a later failure is shown beside the last data. */
+/** Renders the data once it has loaded; if a later fetch fails, the error is shown above the last data. */
 export function Loaded<T>({ query, children }: LoadedProps<T>) {
   return (
     <>
-      {query.error && <Problem error={query.error} title="The server did not answer as expected" />}
+      {query.error && <Problem error={query.error} title="Loading failed" />}
       {query.data !== undefined ? children(query.data) : !query.error && <Loading />}
     </>
   );

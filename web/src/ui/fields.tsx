@@ -1,4 +1,4 @@
-// Labelled inputs with a hint each.
+// Labelled inputs with an optional hint.
 
 import { useId } from "react";
 

@@ -1,4 +1,4 @@
-// Line icons, 20 px, drawn for this dashboard. Decorative: the text beside them, or their button's label, says it.
+// Line icons, 20 px, drawn for this dashboard. Decorative only: adjacent text or the button's label carries the meaning.
 
 const PATHS = {
   jobs: "M3 5h14M3 10h14M3 15h8",

@@ -1,4 +1,4 @@
-// The 3-D view as a component. Default export: it is loaded with three in a chunk of its own.
+// The 3-D view as a component. Exported as default so that it and three load in their own chunk.
 
 import { useEffect, useRef, useState } from "react";
 import { Vector3 } from "three";
@@ -11,21 +11,21 @@ import { disposeAll, Stage, type View } from "./scene";
 export interface ViewerProps {
   urdf: string;
   mounting: Mounting;
-  /** Present joint values by name, rad or m. */
+  /** Current joint values by name, rad or m. */
   joints: Readonly<Record<string, number>>;
-  /** Poses the tool goes through, by joint name, in order. */
+  /** Joint values by name of the poses along the tool's path, in order. */
   path?: readonly Readonly<Record<string, number>>[];
-  /** Index in `path` that has been reached. */
+  /** Index in `path` of the last pose reached. */
   pathIndex?: number;
   /** Goals in the base frame, metres. */
   goals?: readonly Point[];
   wall?: WallGrid;
-  /** Poses at which the tool works on the wall, and how many of them are behind. */
+  /** Poses at which the tool works on the wall, and how many of them are done. */
   strokes?: readonly Readonly<Record<string, number>>[];
   strokesDone?: number;
-  /** Told the number of cells that are painted. */
+  /** Called with the number of painted cells. */
   onPainted?: (cells: number) => void;
-  /** What is seen, for those who cannot see it. */
+  /** Text alternative. */
   summary: string;
 }
 
@@ -111,7 +111,7 @@ export default function RobotViewer(props: ViewerProps) {
       </div>
       {missing > 0 && (
         <p className="small muted" style={{ marginTop: 6 }}>
-          {missing} {missing === 1 ? "mesh" : "meshes"} named by the URDF are not stored here: those links are drawn as bones.
+          {missing} {missing === 1 ? "mesh" : "meshes"} named in the URDF are not stored here; those links are drawn as bones.
         </p>
       )}
     </div>
@@ -140,7 +140,7 @@ function build(stage: Stage, { urdf, mounting, path, goals, wall, strokes }: Ing
   return { stage, figure, trail, wall: shown, painters };
 }
 
-/** The grid moved from the chain's base frame to the world. */
+/** Transforms the grid from the chain's base frame to the world frame. */
 function inWorld(figure: RobotFigure, wall: WallGrid): WallGrid {
   const origin = figure.fromBase([0, 0, 0]);
   const turn = (step: readonly number[]) => figure.fromBase(triple(step)).sub(origin).toArray();

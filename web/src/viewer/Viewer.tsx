@@ -1,4 +1,4 @@
-// The 3-D view with its chunk loaded when it is first shown.
+// The 3-D view; its chunk is loaded on first use.
 
 import { lazy, Suspense } from "react";
 import type { ViewerProps } from "./RobotViewer";

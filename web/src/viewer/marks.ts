@@ -1,4 +1,4 @@
-// What is drawn around a robot: the tool's trail, goals in space, the wall's cells.
+// Objects drawn around a robot: the tool's trail, goals in space, the wall's cells.
 
 import * as THREE from "three";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
@@ -6,7 +6,7 @@ import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { token } from "../charts/theme";
 
-/** A line through points of the world, drawn strongly up to one of them and faintly beyond. */
+/** A line through points in the world frame, bold up to one of them and faint beyond. */
 export class Trail {
   readonly object = new THREE.Group();
   private readonly done: Line2;
@@ -18,20 +18,20 @@ export class Trail {
     if (this.segments > 0) this.object.add(thickLine(points, 2, 0.35), this.done);
   }
 
-  /** Draws strongly what lies before point number `index`. */
+  /** Draws the part up to point `index` bold. */
   showUpTo(index: number): void {
     this.done.geometry.instanceCount = Math.max(0, Math.min(this.segments, index));
   }
 }
 
-/** A line of a width in pixels. */
+/** A line whose width is in pixels. */
 function thickLine(points: readonly THREE.Vector3[], width: number, opacity: number): Line2 {
   const geometry = new LineGeometry();
   geometry.setPositions(points.flatMap((point) => point.toArray()));
   return new Line2(geometry, new LineMaterial({ color: token("trail"), linewidth: width, transparent: opacity < 1, opacity }));
 }
 
-/** Goals in space, each a small sphere, with a thin line in their order. */
+/** Goals in space, each a small sphere, joined by a thin line in order. */
 export function goalMarks(points: readonly THREE.Vector3[]): THREE.Group {
   const group = new THREE.Group();
   const material = new THREE.MeshStandardMaterial({ color: token("goal"), roughness: 0.5 });
@@ -48,14 +48,14 @@ export function goalMarks(points: readonly THREE.Vector3[]): THREE.Group {
   return group;
 }
 
-/** One cell of a wall in the world. */
+/** One cell of a wall, in the world frame. */
 export interface CellShape {
   centre: THREE.Vector3;
   column: THREE.Vector3;
   row: THREE.Vector3;
 }
 
-/** The wall: flat cells that change colour when painted. */
+/** The wall: flat cells that change colour once painted. */
 export class Wall {
   readonly object = new THREE.Group();
   private readonly cells: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>[];

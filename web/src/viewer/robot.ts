@@ -1,12 +1,12 @@
-// A robot from its URDF. Meshes lie on nobody's server: a link that has no primitive of its own is drawn as bones to the
-// links it carries, so that every robot can be seen moving.
+// A robot built from its URDF. Meshes are not stored on the server: a link without a primitive shape is drawn as bones to
+// its child links, so that every robot can be seen moving.
 
 import * as THREE from "three";
 import URDFLoader, { type URDFJoint, type URDFLink, type URDFRobot } from "urdf-loader";
 import { token } from "../charts/theme";
 import { disposeAll } from "./scene";
 
-/** Where the tool is and how the joints stand that no trajectory moves. */
+/** The tool's mounting and the values of joints that no trajectory moves. */
 export interface Mounting {
   baseLink: string | null;
   tipLink: string | null;
@@ -16,13 +16,13 @@ export interface Mounting {
 
 export class RobotFigure {
   readonly object: URDFRobot;
-  /** How many meshes the URDF names that are not shown. */
+  /** Number of meshes in the URDF that are not shown. */
   readonly missingMeshes: number;
   private readonly tip: THREE.Object3D;
   private readonly base: THREE.Object3D;
   private readonly tool: THREE.Vector3;
 
-  /** Throws when the text is no URDF. */
+  /** Throws if the text is not a URDF. */
   constructor(urdf: string, mounting: Mounting) {
     let missing = 0;
     const loader = new URDFLoader();
@@ -40,7 +40,7 @@ export class RobotFigure {
     this.pose(mounting.fixed);
   }
 
-  /** Sets joints by name (rad or m), beyond their limits if need be: what was executed is shown. */
+  /** Sets joints by name, rad or m. Limits are not enforced, so that the executed poses are shown as they were. */
   pose(joints: Readonly<Record<string, number>>): void {
     for (const [name, value] of Object.entries(joints)) {
       const joint = this.object.joints[name];
@@ -93,7 +93,7 @@ export class RobotFigure {
   }
 }
 
-/** Whether the URDF gave the shape a material; the loader leaves the others white. */
+/** Whether the URDF gives the shape a material; the loader leaves others white. */
 function hasOwnColor(shape: THREE.Mesh): boolean {
   const material = [shape.material].flat()[0];
   return material instanceof THREE.MeshPhongMaterial && material.color.getHex() !== 0xffffff;

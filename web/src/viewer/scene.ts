@@ -1,4 +1,4 @@
-// The 3-D stage: camera, light, floor, drawing on demand. Knows nothing of robots. ROS axes: x forward, z up, metres.
+// The 3-D stage: camera, lights, floor, rendering on demand. Knows nothing about robots. ROS axes: x forward, z up, metres.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -24,7 +24,7 @@ export class Stage {
   private frame = 0;
   private floorHeight = 0;
 
-  /** Throws when the browser has no WebGL. */
+  /** Throws if the browser has no WebGL. */
   constructor(host: HTMLElement) {
     this.host = host;
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
@@ -48,12 +48,12 @@ export class Stage {
     this.resize();
   }
 
-  /** Names the picture for those who cannot see it. */
+  /** Sets the text alternative of the picture. */
   describe(text: string): void {
     this.renderer.domElement.setAttribute("aria-label", text);
   }
 
-  /** Takes the colours of the present scheme. */
+  /** Applies the colours of the current scheme. */
   recolor(): void {
     this.scene.background = new THREE.Color(token("scene"));
     this.scene.getObjectByName("floor")?.removeFromParent();
@@ -65,7 +65,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Looks at everything from one side. */
+  /** Moves the camera to see everything from one side. */
   fit(view: View): void {
     const box = new THREE.Box3().setFromObject(this.root);
     if (box.isEmpty()) box.set(new THREE.Vector3(-0.5, -0.5, 0), new THREE.Vector3(0.5, 0.5, 1));
@@ -80,7 +80,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Draws in the next animation frame; cheap to call often. */
+  /** Requests a render in the next animation frame; cheap to call often. */
   draw(): void {
     if (this.frame === 0) {
       this.frame = requestAnimationFrame(() => {
@@ -116,7 +116,7 @@ export class Stage {
   }
 }
 
-/** Frees what the graphics card holds of an object and everything below it. */
+/** Releases the GPU resources of an object and its descendants. */
 export function disposeAll(object: THREE.Object3D): void {
   object.traverse((node) => {
     if (!(node instanceof THREE.Mesh || node instanceof THREE.Line)) return;

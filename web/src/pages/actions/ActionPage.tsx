@@ -1,4 +1,4 @@
-// One action: its goals as numbers and as a curve, feature by feature.
+// One action: its goals as a table and as one curve per feature.
 
 import { Link, useParams } from "react-router";
 import { useAction, useActionGoals, useInterpolation } from "../../api/queries";
@@ -45,11 +45,11 @@ function ActionFacts({ action }: { action: Action }) {
         { name: "Goals", value: action.goals },
         { name: "Demonstrations", value: action.demonstrations.length },
         { name: "Mean duration", value: formatDuration(action.mean_duration_s) },
-        { name: "Shortest time between goals", value: formatDuration(action.t_min_s) },
+        { name: "Min. time between goals", value: formatDuration(action.t_min_s) },
         { name: "Weighting", value: humanize(action.weighting) },
         { name: "Metric", value: humanize(action.metric) },
-        { name: "Made", value: formatDateTime(Date.parse(action.created_at)) },
-        { name: "By", value: <Link to={`/jobs/${action.job}`}>its job</Link> },
+        { name: "Created", value: formatDateTime(Date.parse(action.created_at)) },
+        { name: "Created by", value: <Link to={`/jobs/${action.job}`}>its job</Link> },
       ]}
     />
   );
@@ -114,7 +114,7 @@ interface FeatureProps {
   values: (number | null)[];
 }
 
-/** One feature's goals as points, the curve of radial basis functions through them as a line. */
+/** One feature: the goals as points, the radial-basis-function curve through them as a line. */
 function FeatureCard({ action, column, title, values }: FeatureProps) {
   const curve = useInterpolation(action.id, CURVE_POINTS);
   const last = Math.max(1, values.length - 1);

@@ -10,9 +10,9 @@ export function ActionsPage() {
   const actions = useActions();
   return (
     <>
-      <PageHead title="Actions" lead="What demonstrations have in common: goals to be reached one after the other.">
+      <PageHead title="Actions" lead="What the demonstrations have in common: a sequence of goals.">
         <Link className="button primary" to="/demonstrations">
-          Make one of demonstrations
+          Create from demonstrations
         </Link>
       </PageHead>
       <Loaded query={actions}>
@@ -30,7 +30,7 @@ export function ActionsPage() {
 function ActionTable({ actions }: { actions: Action[] }) {
   if (actions.length === 0) {
     return (
-      <Empty title="No action yet">
+      <Empty title="No actions yet">
         <p className="muted">Choose demonstrations of the same action and generalize them.</p>
       </Empty>
     );
@@ -46,7 +46,7 @@ function ActionTable({ actions }: { actions: Action[] }) {
           <th scope="col" className="numeric">Demonstrations</th>
           <th scope="col">Mean duration</th>
           <th scope="col">Weighting</th>
-          <th scope="col">Made</th>
+          <th scope="col">Created</th>
         </tr>
       </thead>
       <tbody>
@@ -61,7 +61,7 @@ function ActionTable({ actions }: { actions: Action[] }) {
             <td data-label="Demonstrations" className="numeric">{action.demonstrations.length}</td>
             <td data-label="Mean duration">{formatDuration(action.mean_duration_s)}</td>
             <td data-label="Weighting">{humanize(action.weighting)}</td>
-            <td data-label="Made" className="nowrap">{formatDateTime(Date.parse(action.created_at))}</td>
+            <td data-label="Created" className="nowrap">{formatDateTime(Date.parse(action.created_at))}</td>
           </tr>
         ))}
       </tbody>

@@ -1,4 +1,4 @@
-// One demonstration: what the reader found, its streams, and whether it counts.
+// One demonstration: the reader's findings, its streams, and its exclusion.
 
 import { useState, type SyntheticEvent } from "react";
 import { useParams } from "react-router";
@@ -83,7 +83,7 @@ function placeOf({ stream, row, column, time_s: timeS }: Finding): string {
   return parts.filter((part) => part != null).join(", ");
 }
 
-/** Leaves the demonstration out of new actions, with a reason, or takes it in again. */
+/** Excludes the demonstration from new actions, with a reason, or includes it again. */
 function Exclusion({ demonstration: { id, revision, excluded } }: { demonstration: Demonstration }) {
   const patch = usePatchDemonstration(id);
   const [reason, setReason] = useState("");
@@ -92,11 +92,11 @@ function Exclusion({ demonstration: { id, revision, excluded } }: { demonstratio
     patch.mutate({ excluded: excluded == null ? reason.trim() : "", revision });
   };
   return (
-    <Card title={excluded == null ? "Leave it out" : "Take it in again"}>
+    <Card title={excluded == null ? "Exclude" : "Include again"}>
       <form className="row" onSubmit={submit}>
         {excluded == null && (
           <input
-            aria-label="Reason for leaving it out of new actions"
+            aria-label="Reason for excluding it from new actions"
             placeholder="Reason, for example: the object slipped"
             required
             style={{ flex: "1 1 260px", width: "auto" }}

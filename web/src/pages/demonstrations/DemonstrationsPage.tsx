@@ -1,4 +1,4 @@
-// Demonstrations: drop files, see what the reader found, choose some and make an action of them.
+// Demonstrations: drop files, read the findings, select some and generalize them into an action.
 
 import { useState } from "react";
 import { Link } from "react-router";
@@ -21,7 +21,7 @@ export function DemonstrationsPage() {
   };
   return (
     <>
-      <PageHead title="Demonstrations" lead="Recordings of people showing an action: features of the world over time." />
+      <PageHead title="Demonstrations" lead="Recordings of people performing an action: features of the world over time." />
       <div className="stack">
         <UploadCard />
         <Loaded query={demonstrations}>
@@ -30,7 +30,7 @@ export function DemonstrationsPage() {
             return (
               <>
                 {chosen.size > 0 && <Generalize demonstrations={items.filter((item) => chosen.has(item.id))} />}
-                <Card title="Stored demonstrations" flush aside={<span className="muted small">Choose some to make an action</span>}>
+                <Card title="Stored demonstrations" flush aside={<span className="muted small">Select some to create an action</span>}>
                   <Table demonstrations={items} chosen={chosen} onToggle={toggle} />
                   <More query={demonstrations} />
                 </Card>
@@ -52,8 +52,8 @@ interface TableProps {
 function Table({ demonstrations, chosen, onToggle }: TableProps) {
   if (demonstrations.length === 0) {
     return (
-      <Empty title="No demonstration yet">
-        <p className="muted">Drop CSV files with a header and a time column above, YARP logs, or canonical JSON.</p>
+      <Empty title="No demonstrations yet">
+        <p className="muted">Drop files above: CSV with a header and a time column, YARP logs, or canonical JSON.</p>
       </Empty>
     );
   }
@@ -76,7 +76,7 @@ function Table({ demonstrations, chosen, onToggle }: TableProps) {
               <span className="check">
                 <input
                   type="checkbox"
-                  aria-label={`Choose ${item.name}`}
+                  aria-label={`Select ${item.name}`}
                   checked={chosen.has(item.id)}
                   disabled={item.excluded != null}
                   onChange={() => onToggle(item.id)}

@@ -6,7 +6,7 @@ import { formatDuration } from "../../lib/format";
 import { Card } from "../../ui/basics";
 import { Problem } from "../../ui/feedback";
 
-/** Makes an action of the chosen demonstrations; the number of goals is foretold. */
+/** Generalizes the selected demonstrations into an action; shows the expected number of goals. */
 export function Generalize({ demonstrations }: { demonstrations: Demonstration[] }) {
   const ids = useId();
   const navigate = useNavigate();
@@ -28,7 +28,7 @@ export function Generalize({ demonstrations }: { demonstrations: Demonstration[]
   };
   return (
     <Card
-      title={`Make an action of ${demonstrations.length} ${demonstrations.length === 1 ? "demonstration" : "demonstrations"}`}
+      title={`Create an action from ${demonstrations.length} ${demonstrations.length === 1 ? "demonstration" : "demonstrations"}`}
       aside={<span className="muted small">mean duration {formatDuration(meanS)}</span>}
     >
       <form className="stack" onSubmit={submit}>
@@ -36,10 +36,10 @@ export function Generalize({ demonstrations }: { demonstrations: Demonstration[]
           <div className="field">
             <label htmlFor={`${ids}name`}>Name of the action</label>
             <input id={`${ids}name`} required value={name} onChange={(event) => setName(event.currentTarget.value)} />
-            <span className="hint">A taken name makes a new version.</span>
+            <span className="hint">An existing name creates a new version.</span>
           </div>
           <div className="field">
-            <label htmlFor={`${ids}tmin`}>Shortest time between goals, s</label>
+            <label htmlFor={`${ids}tmin`}>Min. time between goals (s)</label>
             <input
               id={`${ids}tmin`}
               type="number"
@@ -57,10 +57,10 @@ export function Generalize({ demonstrations }: { demonstrations: Demonstration[]
               <option value="per_demonstration">per demonstration</option>
               <option value="per_sample">per sample</option>
             </select>
-            <span className="hint">Whether a denser recording weighs more.</span>
+            <span className="hint">Per sample, a denser recording counts more.</span>
           </div>
         </div>
-        {create.error && <Problem error={create.error} title="The action cannot be made" />}
+        {create.error && <Problem error={create.error} title="The action cannot be created" />}
         <div>
           <button type="submit" className="button primary" disabled={create.isPending}>
             Generalize

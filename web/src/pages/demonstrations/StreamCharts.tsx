@@ -6,7 +6,7 @@ import { Card } from "../../ui/basics";
 
 const COLORS = ["info", "goal", "good", "granule", "warn", "bad", "muted"];
 
-/** One chart for each stream and unit: values of different units share no axis. */
+/** One chart per stream and unit: values in different units never share an axis. */
 export function StreamCharts({ series }: { series: Series[] }) {
   const groups = Map.groupBy(series, (each) => JSON.stringify([each.stream, each.feature.unit ?? ""]));
   return [...groups.entries()].map(([key, members]) => <Group key={key} members={members} />);
@@ -21,10 +21,10 @@ function Group({ members }: { members: Series[] }) {
   return (
     <Card
       title={first.stream}
-      aside={members.some((each) => each.decimated) ? <span className="muted small">every extreme kept, samples thinned</span> : null}
+      aside={members.some((each) => each.decimated) ? <span className="muted small">thinned for display, extremes kept</span> : null}
     >
       <Chart
-        summary={`${names} over ${formatCount(x.length)} times`}
+        summary={`${names} at ${formatCount(x.length)} points in time`}
         x={x}
         xLabel="time, s"
         yLabel={unit === "" ? names : `${members.length === 1 ? names : "value"}, ${unit}`}

@@ -1,4 +1,4 @@
-// Drag-and-drop upload. Each file is a demonstration of its own unless they were recorded together.
+// Drag-and-drop upload. Each file is its own demonstration unless they were recorded together.
 
 import { useId, useRef, useState, type DragEvent } from "react";
 import { Link } from "react-router";
@@ -75,11 +75,11 @@ export function UploadCard() {
           {upload.isPending ? "Uploading…" : "Choose files"}
         </button>
         <details style={{ textAlign: "left", width: "min(100%, 560px)" }}>
-          <summary>How to read them</summary>
+          <summary>Import options</summary>
           <div className="stack">
             <label className="check">
               <input type="checkbox" checked={together} onChange={(event) => setTogether(event.currentTarget.checked)} />
-              <span>The files were recorded together: one demonstration, each file a stream</span>
+              <span>The files were recorded together: one demonstration, one stream per file</span>
             </label>
             <label className="check">
               <input type="checkbox" checked={alignStart} onChange={(event) => setAlignStart(event.currentTarget.checked)} />
@@ -88,7 +88,7 @@ export function UploadCard() {
             <div className="field">
               <label htmlFor={`${ids}units`}>Units</label>
               <input id={`${ids}units`} value={units} placeholder="x=m, force=N" onChange={(event) => setUnits(event.currentTarget.value)} />
-              <span className="hint">Only where the header does not name them.</span>
+              <span className="hint">Needed only if the header does not state them.</span>
             </div>
           </div>
         </details>
@@ -101,14 +101,14 @@ export function UploadCard() {
 }
 
 function OutcomeNotice({ outcome: { name, bytes, demonstration, error } }: { outcome: Outcome }) {
-  if (error !== undefined) return <Problem error={error} title={`${name} was refused`} />;
+  if (error !== undefined) return <Problem error={error} title={`${name} was rejected`} />;
   if (demonstration === undefined) return null;
   const { findings, id } = demonstration;
   return (
-    <Notice tone={findings > 0 ? "warn" : "good"} title={`${name} was read (${formatBytes(bytes)})`}>
+    <Notice tone={findings > 0 ? "warn" : "good"} title={`${name} was imported (${formatBytes(bytes)})`}>
       <p>
-        {findings === 0 ? "Nothing to report. " : `The reader has ${findings} ${findings === 1 ? "finding" : "findings"}. `}
-        <Link to={`/demonstrations/${id}`}>{findings > 0 ? "See findings and remedies" : "Look at it"}</Link>
+        {findings === 0 ? "No findings. " : `${findings} ${findings === 1 ? "finding" : "findings"}. `}
+        <Link to={`/demonstrations/${id}`}>{findings > 0 ? "See findings and remedies" : "Open"}</Link>
       </p>
     </Notice>
   );

@@ -8,7 +8,7 @@ import { Loaded, Notice } from "../../ui/feedback";
 
 const capitalized = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** What the server says of the job before it is started: what is wrong with it, or what it will cost. */
+/** The server's dry run of the job: its errors, or its estimated cost. */
 export function DryRun({ request }: { request: CreateJob | null }) {
   const asked = useDeferredValue(request);
   const answer = useQuery({
@@ -20,13 +20,13 @@ export function DryRun({ request }: { request: CreateJob | null }) {
   return (
     <Card title="Before you start">
       {asked === null ? (
-        <p className="muted">Choose action, robot and world; the cost is estimated here.</p>
+        <p className="muted">Choose an action, a robot and a world to see the estimated cost.</p>
       ) : (
         <Loaded query={answer}>
           {({ valid, errors, estimate }) => (
             <div className="stack" aria-live="polite">
               {!valid && (
-                <Notice tone="bad" title="The job would be refused">
+                <Notice tone="bad" title="The job would be rejected">
                   <ul>
                     {errors.map((error, index) => (
                       <li key={index}>
@@ -40,13 +40,13 @@ export function DryRun({ request }: { request: CreateJob | null }) {
                 <>
                   <Facts
                     facts={[
-                      { name: "Evaluations, about", value: formatCount(estimate.evaluations) },
+                      { name: "Estimated evaluations", value: formatCount(estimate.evaluations) },
                       { name: "In simulation", value: formatDuration(estimate.simulated_s) },
-                      { name: "If each were a trial on a robot", value: formatDuration(estimate.robot_s) },
+                      { name: "On a real robot", value: formatDuration(estimate.robot_s) },
                     ]}
                   />
                   <p>{capitalized(estimate.text)}.</p>
-                  <p className="small muted">How this is known: {estimate.basis}.</p>
+                  <p className="small muted">Basis of the estimate: {estimate.basis}.</p>
                 </>
               )}
             </div>

@@ -1,4 +1,4 @@
-// The numbers, curves and ladder of an execution while it runs and after.
+// Figures, curves and goal ladder of an execution, during and after the run.
 
 import { Chart } from "../../charts/Chart";
 import type { GoalProgress, Job, JobProgress, JobState, TrialProgress } from "../../api/types";
@@ -59,9 +59,9 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
   );
 }
 
-/** Progress only grows: the larger one is the newer one. */
-function newest(told: JobProgress, streamed: JobProgress | null): JobProgress {
-  return streamed !== null && streamed.total_evaluations >= told.total_evaluations && told.fraction < 1 ? streamed : told;
+/** The newer of two progress reports: progress never decreases, so the larger one wins. */
+function newest(fetched: JobProgress, streamed: JobProgress | null): JobProgress {
+  return streamed !== null && streamed.total_evaluations >= fetched.total_evaluations && fetched.fraction < 1 ? streamed : fetched;
 }
 
 function RunLabel({ progress }: { progress: JobProgress }) {
@@ -83,7 +83,7 @@ interface SummaryProps {
   unit: string;
 }
 
-/** Goals that ended: those out of reach are none that are reached. */
+/** Number of goals reached; goals that ended out of reach do not count. */
 function goalsFact({ progress, goals, trials }: Pick<SummaryProps, "progress" | "goals" | "trials">): Fact {
   if (trials.length > 0 && goals.length === 0) {
     return { name: "Goals tried", value: `${new Set(trials.map((trial) => trial.goal)).size} of ${progress.goals}` };
@@ -99,7 +99,7 @@ function Summary({ job, progress, goals, trials, state, unit }: SummaryProps) {
   const started = job.started_at == null ? null : Date.parse(job.started_at);
   const ended = job.finished_at == null ? now : Date.parse(job.finished_at);
   const elapsedS = started === null ? null : Math.max(0, (ended - started) / 1000);
-  // Such a method goes back and forth between goals: how much is left, it does not know either.
+  // A method that reports trials switches between goals, so its remaining time cannot be extrapolated.
   const running = trials.length === 0 && state === "RUNNING" && progress.fraction > 0.02 && elapsedS !== null;
   const leftS = running ? (elapsedS * (1 - progress.fraction)) / progress.fraction : null;
   return (
@@ -111,7 +111,7 @@ function Summary({ job, progress, goals, trials, state, unit }: SummaryProps) {
           { name: "Evaluations", value: formatCount(progress.total_evaluations) },
           { name: "Best discrepancy", value: formatQuantity(progress.discrepancy, unit) },
           { name: "Running for", value: formatDuration(elapsedS) },
-          { name: leftS === null ? "Progress" : "About left", value: leftS === null ? formatPercent(progress.fraction) : formatDuration(leftS) },
+          { name: leftS === null ? "Progress" : "Time left (est.)", value: leftS === null ? formatPercent(progress.fraction) : formatDuration(leftS) },
         ]}
       />
       <ProgressBar share={progress.fraction} label="Progress of the job" />
@@ -121,7 +121,7 @@ function Summary({ job, progress, goals, trials, state, unit }: SummaryProps) {
 
 function DiscrepancyChart({ live, unit, boundaries }: { live: LiveJob; unit: string; boundaries: number[] }) {
   const { evaluations, discrepancy } = live.curve;
-  if (evaluations.length < 2) return <p className="muted">The curve appears with the first evaluations.</p>;
+  if (evaluations.length < 2) return <p className="muted">The curve appears after the first evaluations.</p>;
   const last = discrepancy.at(-1);
   return (
     <Chart

@@ -1,4 +1,4 @@
-// An experiment: the table over the runs that ended so far, renewed while it runs.
+// An experiment's table over the runs finished so far, refreshed while the job runs.
 
 import { useExperimentTable } from "../../api/queries";
 import type { ExperimentTable, Job, JobState } from "../../api/types";
@@ -20,7 +20,7 @@ function Result({ table }: { table: ExperimentTable }) {
   return (
     <Card title="Table" aside={`${formatCount(table.finished_runs)} of ${formatCount(table.runs)} runs`} flush>
       <div style={{ padding: "0 20px 12px" }}>
-        <ProgressBar share={share} label="Runs that ended" />
+        <ProgressBar share={share} label="Finished runs" />
       </div>
       <Cells cells={table.cells} />
       <div className="row" style={{ padding: "12px 20px 18px" }}>

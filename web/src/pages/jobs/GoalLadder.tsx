@@ -1,4 +1,4 @@
-// The goals of a run in their order: which are reached at which cost, which one is sought now.
+// The goals of a run in order: which ones are reached, at what cost, and which one is being searched.
 
 import type { GoalProgress, TrialProgress } from "../../api/types";
 import { formatCount, formatNumber, humanize } from "../../lib/format";
@@ -8,9 +8,9 @@ interface Props {
   /** Number of goals; 0 while it is unknown. */
   goals: number;
   finished: readonly GoalProgress[];
-  /** The goal sought now; null when none is. */
+  /** The goal being searched; null if none is. */
   active: { index: number; evaluations: number; discrepancy: number | null } | null;
-  /** The trials so far, where the method tells each one: then a goal's best is its own distance. */
+  /** The trials so far; empty if the method does not report them. With trials, a goal's best value is its own distance. */
   trials: readonly TrialProgress[];
   unit: string;
 }
@@ -19,7 +19,7 @@ interface Rung {
   index: number;
   kind: "done" | "active" | "waiting";
   evaluations: number | null;
-  /** Best discrepancy up to this goal, or the distance from it. */
+  /** Best discrepancy up to this goal or, with trials, the smallest distance from it. */
   best: number | null;
   note: string;
 }
@@ -28,7 +28,7 @@ export function GoalLadder({ goals, finished, active, trials, unit }: Props) {
   const one = (index: number) => (trials.length > 0 ? tried(index, finished, active, trials) : rung(index, finished, active));
   const rungs = Array.from({ length: Math.max(goals, finished.length) }, (_, index) => one(index));
   const most = Math.max(1, ...rungs.map((each) => each.evaluations ?? 0));
-  if (rungs.length === 0) return <p className="muted">The goals are known once a worker has the job.</p>;
+  if (rungs.length === 0) return <p className="muted">The goals appear once a worker has started the job.</p>;
   return (
     <ol className="ladder">
       <li className="rung head" aria-hidden="true">
@@ -36,7 +36,7 @@ export function GoalLadder({ goals, finished, active, trials, unit }: Props) {
         <span />
         <span className="numeric">Evaluations</span>
         <span className="numeric">
-          {trials.length > 0 ? "Away" : "Best"}
+          {trials.length > 0 ? "Distance" : "Best"}
           {unit && `, ${unit}`}
         </span>
         <span>Ended by</span>
@@ -68,7 +68,7 @@ function rung(index: number, finished: readonly GoalProgress[], active: Props["a
   return { index, kind: "waiting", evaluations: null, best: null, note: "waiting" };
 }
 
-/** A goal of a method that goes back and forth between goals: all of them end together. */
+/** A goal of a method that switches between goals; all of its goals end together. */
 function tried(index: number, finished: Props["finished"], active: Props["active"], trials: Props["trials"]): Rung {
   const done = finished.find((goal) => goal.index === index);
   if (done !== undefined) {

@@ -6,7 +6,7 @@ import { canCancel, canPause, canResume, isFinal } from "../../lib/states";
 import { Problem } from "../../ui/feedback";
 import { Icon } from "../../ui/icons";
 
-/** Pause, resume, cancel (asked twice), acknowledge, run again: what the state allows. */
+/** The actions the state allows: pause, resume, cancel (with confirmation), acknowledge, run again. */
 export function JobControls({ job, state }: { job: Job; state: JobState }) {
   const steer = useSteerJob(job.id);
   const navigate = useNavigate();
@@ -44,10 +44,10 @@ export function JobControls({ job, state }: { job: Job; state: JobState }) {
       {canCancel(state) && confirming && (
         <span className="row" role="group" aria-label="Cancel this job?">
           <button type="button" className="button danger" onClick={() => say("cancel")}>
-            Really cancel
+            Confirm cancel
           </button>
           <button type="button" className="button quiet" onClick={() => setConfirming(false)}>
-            Keep it
+            Keep running
           </button>
         </span>
       )}

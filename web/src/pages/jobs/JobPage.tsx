@@ -1,4 +1,4 @@
-// One job, live: what the server last said of it, and the events that came since.
+// One job, live: the last fetched state plus the events received since.
 
 import { Link, useParams } from "react-router";
 import { useAction, useJob } from "../../api/queries";
@@ -18,7 +18,7 @@ import { RunsTable } from "./RunsTable";
 
 export function JobPage() {
   const { id = "" } = useParams();
-  // A new id is a new page: nothing of the former job's stream may stay.
+  // The key remounts the page for a new id, so that no state of the previous job's stream survives.
   return <OneJob key={id} id={id} />;
 }
 
@@ -29,7 +29,7 @@ function OneJob({ id }: { id: string }) {
 }
 
 function JobView({ job, live, health }: { job: Job; live: LiveJob; health: StreamHealth }) {
-  // The stream is ahead of the last answer, except when it has lost the beginning of a job long gone.
+  // The stream is ahead of the last fetch, unless the early events of an old job are no longer stored.
   const ahead = live.lastSeq >= job.last_seq;
   const state = ahead && live.state !== null ? live.state : job.state;
   const reason = ahead ? live.reason : job.state_reason;
@@ -78,7 +78,7 @@ function Generalization({ job }: { job: Job }) {
   return (
     <Card title="Result">
       {action == null ? (
-        <p className="muted">The action appears here when the job has succeeded.</p>
+        <p className="muted">The action appears here once the job has succeeded.</p>
       ) : (
         <div className="row">
           <Link className="button primary" to={`/actions/${action}`}>

@@ -5,7 +5,7 @@ import type { CreateJob, EarlierRun, Job, MethodChoice } from "../../api/types";
 import { formatDateTime, formatNumber, humanize } from "../../lib/format";
 import { Card, Facts, type Fact } from "../../ui/basics";
 
-/** The request with what was left open filled in: all it takes to run the job again. */
+/** The request with its defaults filled in: everything needed to reproduce the job. */
 export function JobSettings({ job }: { job: Job }) {
   const at = (time: string | null | undefined) => (time == null ? "–" : formatDateTime(Date.parse(time)));
   return (
@@ -30,7 +30,7 @@ function requestFacts(request: CreateJob): Fact[] {
   if (request.kind === "generalization") {
     return [
       { name: "Demonstrations", value: request.demonstrations.length },
-      { name: "Shortest time between goals", value: `${formatNumber(request.t_min_s)} s` },
+      { name: "Min. time between goals", value: `${formatNumber(request.t_min_s)} s` },
       { name: "Weighting", value: humanize(request.weighting) },
       { name: "Features", value: request.features?.join(", ") ?? "all" },
     ];
@@ -38,11 +38,11 @@ function requestFacts(request: CreateJob): Fact[] {
   if (request.kind === "experiment") {
     const { paper_table: table, cells = [], matrix } = request;
     return [
-      ...(table == null ? [] : [{ name: "Tables of the paper", value: String(table) }]),
-      ...(cells.length === 0 ? [] : [{ name: "Own cells", value: cells.length }]),
-      ...(matrix == null ? [] : [{ name: "Matrix of presets", value: matrix.presets.join(", ") }]),
+      ...(table == null ? [] : [{ name: "Paper tables", value: String(table) }]),
+      ...(cells.length === 0 ? [] : [{ name: "Custom cells", value: cells.length }]),
+      ...(matrix == null ? [] : [{ name: "Matrix presets", value: matrix.presets.join(", ") }]),
       { name: "First seed", value: String(request.seed) },
-      { name: "Repetitions of each cell", value: request.repetitions ?? 1 },
+      { name: "Repetitions per cell", value: request.repetitions ?? 1 },
     ];
   }
   const { execution, seed, repetitions = 1, earlier_runs: earlier } = request;
@@ -51,15 +51,15 @@ function requestFacts(request: CreateJob): Fact[] {
     ["Robot", <RobotLink key="robot" id={request.robot} />],
     ["World", <WorldName key="world" id={request.world} />],
     ["Method", methodName(execution.method)],
-    ["Why this method", execution.chosen?.reason],
+    ["Reason for the method", execution.chosen?.reason],
     ["Metric", humanize(execution.metric)],
     ["Tolerance", execution.tolerance],
     ["Target discrepancy", execution.target_discrepancy],
-    ["Evaluations a goal at most", execution.max_evaluations_per_goal],
-    ["Evaluations a second at most", request.max_evaluations_per_s],
+    ["Max. evaluations per goal", execution.max_evaluations_per_goal],
+    ["Max. evaluations per second", request.max_evaluations_per_s],
     ["First seed", seed == null ? null : String(seed)],
     ["Repetitions", repetitions],
-    ["Begins with", earlier == null ? null : <EarlierTrials key="earlier" runs={earlier} />],
+    ["Starts with", earlier == null ? null : <EarlierTrials key="earlier" runs={earlier} />],
   ];
   return given.flatMap(([name, value]) => (value == null ? [] : [{ name, value }]));
 }
@@ -70,14 +70,14 @@ function methodName(method: MethodChoice): string {
   return method.name === "sst" ? `${name}, P ${method.population ?? 50}, S ${method.stagnation ?? 3}` : name;
 }
 
-/** The trials of earlier runs on the same robot, and the jobs they are of. */
+/** Trials taken from earlier runs on the same robot, with links to their jobs. */
 function EarlierTrials({ runs }: { runs: EarlierRun[] }) {
   if (runs.length === 0) return <>no earlier trials</>;
   return (
     <ul className="plain">
       {runs.map(({ run, job, trials }) => (
         <li key={run}>
-          {trials ?? "all"} trials of {job == null ? "an earlier run" : <Link to={`/jobs/${job}`}>an earlier job</Link>}
+          {trials ?? "all"} trials from {job == null ? "an earlier run" : <Link to={`/jobs/${job}`}>an earlier job</Link>}
         </li>
       ))}
     </ul>

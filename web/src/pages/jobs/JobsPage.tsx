@@ -12,7 +12,7 @@ export function JobsPage() {
   const jobs = useJobs();
   return (
     <>
-      <PageHead title="Jobs" lead="Generalizations make actions of demonstrations; executions find the joint trajectory.">
+      <PageHead title="Jobs" lead="Generalization jobs turn demonstrations into actions; execution jobs find the joint trajectory.">
         <NewJobLink />
       </PageHead>
       <Loaded query={jobs}>
@@ -40,10 +40,10 @@ function NewJobLink() {
 
 function NoJobs() {
   return (
-    <Empty title="No job yet">
+    <Empty title="No jobs yet">
       <p className="muted">
-        Upload <Link to="/demonstrations">demonstrations</Link>, make an action of them, then start a job that executes it on
-        a robot.
+        Upload <Link to="/demonstrations">demonstrations</Link>, turn them into an action, then start a job that
+        executes it on a robot.
       </p>
       <NewJobLink />
     </Empty>

@@ -1,4 +1,4 @@
-// The method of a new job with its parameters, and the robot it will meet.
+// Method, parameters and simulated robot of a new job.
 
 import type { Metric, World } from "../../api/types";
 import { Card } from "../../ui/basics";
@@ -8,7 +8,7 @@ import { methodNamed, methodsFor, type MethodName } from "./methods";
 
 const METRICS: { value: Metric; label: string }[] = [
   { value: "multivariate", label: "multivariate: all features jointly" },
-  { value: "sum_of_features", label: "sum of features: one path a feature" },
+  { value: "sum_of_features", label: "sum of features: one path per feature" },
   { value: "aquila", label: "aquila: as in the published runs" },
 ];
 
@@ -24,7 +24,7 @@ export function MethodCard({ form, world, change }: Props) {
   const text: Text = (key) => ({ value: form[key], onChange: (value) => change({ [key]: value }) });
   const method = methodNamed(form.method);
   return (
-    <Card title="How it searches">
+    <Card title="Search method">
       <div className="fields">
         <SelectField
           label="Method"
@@ -42,8 +42,8 @@ export function MethodCard({ form, world, change }: Props) {
         {form.method === "sst" && <TournamentFields text={text} />}
         {method?.few === true && (
           <NumberField
-            label="Largest step, degrees"
-            hint="Of any joint from one trial to the next; empty is free."
+            label="Max. step (degrees)"
+            hint="Of each joint from one trial to the next; leave empty for no limit."
             min={0}
             step="any"
             {...text("maxStep")}
@@ -58,8 +58,8 @@ function ModelFields({ form, text }: { form: JobForm; text: Text }) {
   return (
     <>
       <SelectField
-        label="Known before the first trial"
-        hint={form.prior === "none" ? "It begins with small moves of each joint." : "It halves the evaluations, even when the description is off."}
+        label="Prior knowledge"
+        hint={form.prior === "none" ? "The run starts with a small move of each joint." : "Halves the evaluations, even if the description is inaccurate."}
         options={[
           { value: "none", label: "nothing" },
           { value: "simulator", label: "the described robot, as a simulator" },
@@ -67,8 +67,8 @@ function ModelFields({ form, text }: { form: JobForm; text: Text }) {
         {...text("prior")}
       />
       <NumberField
-        label="Noise of the sensor"
-        hint="Standard deviation of a feature, in its unit; 0 is exact."
+        label="Expected sensor noise"
+        hint="Standard deviation of a feature, in its unit; 0 means exact."
         min={0}
         step="any"
         required
@@ -76,10 +76,10 @@ function ModelFields({ form, text }: { form: JobForm; text: Text }) {
       />
       <SelectField
         label="Earlier runs on this robot"
-        hint="Trials with the same tool, world and features tell as much as new ones."
+        hint="Trials with the same tool, world and features are as good as new ones."
         options={[
-          { value: "found", label: "begin with their trials" },
-          { value: "none", label: "leave them out" },
+          { value: "found", label: "reuse their trials" },
+          { value: "none", label: "ignore them" },
         ]}
         {...text("earlier")}
       />
@@ -90,14 +90,14 @@ function ModelFields({ form, text }: { form: JobForm; text: Text }) {
 function TournamentFields({ text }: { text: Text }) {
   return (
     <>
-      <NumberField label="Population P" hint="Individuals a goal starts with." min={3} required {...text("population")} />
+      <NumberField label="Population P" hint="Number of individuals per goal." min={3} required {...text("population")} />
       <NumberField label="Stagnation S" hint="A goal ends after S + 1 generations without improvement." min={0} required {...text("stagnation")} />
       <NumberField label="Mutation probability" hint="After each crossover, 0 to 1." min={0} max={1} step="any" required {...text("mutation")} />
     </>
   );
 }
 
-/** The simulated robot a job meets: as described, or a little other, as real ones are. */
+/** The simulated robot of a job: exactly as described, or slightly different, as real robots are. */
 export function RealityCard({ form, change }: Omit<Props, "world">) {
   const text: Text = (key) => ({ value: form[key], onChange: (value) => change({ [key]: value }) });
   return (
@@ -105,23 +105,23 @@ export function RealityCard({ form, change }: Omit<Props, "world">) {
       <div className="fields">
         <SelectField
           label="The robot is"
-          hint="A rehearsal: the method knows the description only."
+          hint="Rehearse a real robot: the method only knows the description."
           options={[
             { value: "described", label: "exactly as described" },
-            { value: "other", label: "a little unlike its description" },
+            { value: "other", label: "slightly different from its description" },
           ]}
           {...text("reality")}
         />
         {form.reality === "other" && (
           <>
-            <NumberField label="Links off by, %" min={0} max={90} step="any" required {...text("links")} />
-            <NumberField label="Base off by, mm" min={0} step="any" required {...text("base")} />
-            <NumberField label="Sensor noise" hint="Standard deviation, features' unit." min={0} step="any" required {...text("sensorNoise")} />
-            <NumberField label="Joint noise, degrees" min={0} step="any" required {...text("jointNoise")} />
-            <NumberField label="Observations lost, %" min={0} max={99} step="any" required {...text("lost")} />
+            <NumberField label="Link length error (%)" min={0} max={90} step="any" required {...text("links")} />
+            <NumberField label="Base offset (mm)" min={0} step="any" required {...text("base")} />
+            <NumberField label="Sensor noise" hint="Standard deviation, in the features' unit." min={0} step="any" required {...text("sensorNoise")} />
+            <NumberField label="Joint noise (degrees)" min={0} step="any" required {...text("jointNoise")} />
+            <NumberField label="Lost observations (%)" min={0} max={99} step="any" required {...text("lost")} />
             <NumberField
-              label="Robot number"
-              hint="The same number is the same robot in every job; empty draws one a run."
+              label="Robot seed"
+              hint="The same seed gives the same robot in every job; leave empty to draw one per run."
               min={0}
               {...text("realSeed")}
             />

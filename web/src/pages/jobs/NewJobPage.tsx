@@ -1,4 +1,4 @@
-// A new execution: what, where, how; the server's dry run beside it while it is filled in.
+// The form for a new execution, next to the server's dry run of it.
 
 import { useState, type SyntheticEvent } from "react";
 import { useNavigate, useSearchParams } from "react-router";
@@ -30,7 +30,7 @@ export function NewJobPage() {
     <>
       <PageHead
         title="New job"
-        lead="Finds the joint trajectory with which a robot produces an action's effects."
+        lead="Finds the joint trajectory with which a robot produces the effects of an action."
         back={{ to: "/jobs", label: "Jobs" }}
       />
       <form className="columns wide-first" onSubmit={submit}>
@@ -38,24 +38,24 @@ export function NewJobPage() {
           <What form={form} change={change} />
           <MethodCard form={form} world={world} change={change} />
           <RealityCard form={form} change={change} />
-          <Card title="When a goal ends early">
+          <Card title="Stopping criteria">
             <div className="fields">
-              <NumberField label="Tolerance" hint="An observation so near the goal is good enough, in the features' unit." min={0} step="any" {...text("tolerance")} />
-              <NumberField label="Target discrepancy" hint="Of the whole observation so far." min={0} step="any" {...text("target")} />
-              <NumberField label="Evaluations a goal at most" min={1} {...text("maxEvaluations")} />
+              <NumberField label="Tolerance" hint="A goal ends when an observation is this close, in the features' unit." min={0} step="any" {...text("tolerance")} />
+              <NumberField label="Target discrepancy" hint="A goal ends when the discrepancy of the whole observation so far is this small." min={0} step="any" {...text("target")} />
+              <NumberField label="Max. evaluations per goal" min={1} {...text("maxEvaluations")} />
             </div>
           </Card>
           <Card title="Repetitions">
             <div className="fields">
               <NumberField label="Runs" hint="Run r uses seed + r." min={1} max={10_000} required {...text("repetitions")} />
-              <NumberField label="Seed" hint="Drawn and recorded when empty; the same seed gives the same bits." min={0} {...text("seed")} />
-              <NumberField label="Evaluations a second at most" hint="Slows a simulation down so that it can be watched." min={1} step="any" {...text("pace")} />
+              <NumberField label="Seed" hint="Drawn and recorded if empty; the same seed gives the same result, bit for bit." min={0} {...text("seed")} />
+              <NumberField label="Max. evaluations per second" hint="Slows the simulation down so that it can be watched." min={1} step="any" {...text("pace")} />
             </div>
           </Card>
         </div>
         <div className="stack">
           <DryRun request={request} />
-          {create.error && <Problem error={create.error} title="The job was refused" />}
+          {create.error && <Problem error={create.error} title="The job was rejected" />}
           <button type="submit" className="button primary" disabled={request === null || create.isPending}>
             {create.isPending ? "Starting…" : "Start job"}
           </button>
@@ -77,7 +77,7 @@ function What({ form, change }: { form: JobForm; change: (part: Partial<JobForm>
     change({ world: id, ...(world === undefined ? {} : suggested(world)) });
   };
   return (
-    <Card title="What">
+    <Card title="Task">
       <div className="fields">
         <SelectField
           label="Action"
@@ -85,7 +85,7 @@ function What({ form, change }: { form: JobForm; change: (part: Partial<JobForm>
           value={form.action}
           onChange={(value) => change({ action: value })}
           options={[
-            { value: "", label: actions.length === 0 ? "none yet: make one first" : "choose an action" },
+            { value: "", label: actions.length === 0 ? "none yet: create one first" : "choose an action" },
             ...actions.map((each) => ({ value: each.id, label: `${each.name}, version ${each.version} (${each.goals} goals)` })),
           ]}
         />

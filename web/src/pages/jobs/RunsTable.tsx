@@ -7,7 +7,7 @@ import { Card } from "../../ui/basics";
 import { Loaded } from "../../ui/feedback";
 import { More } from "../../ui/More";
 
-/** Finished repetitions, each with its way to the replay. */
+/** Finished repetitions, each with a link to its replay. */
 export function RunsTable({ job, unit, finishedRuns }: { job: Job; unit: string; finishedRuns: number }) {
   const runs = useRuns(job.id, finishedRuns > 0 || job.result.runs.length > 0 || isFinal(job.state));
   if (!runs.isEnabled) return null;
@@ -16,7 +16,7 @@ export function RunsTable({ job, unit, finishedRuns }: { job: Job; unit: string;
       <Loaded query={runs}>
         {(data) => {
           const items = data.pages.flatMap((page) => page.items);
-          if (items.length === 0) return <p className="muted" style={{ padding: "8px 20px 18px" }}>No run ended.</p>;
+          if (items.length === 0) return <p className="muted" style={{ padding: "8px 20px 18px" }}>No run has finished.</p>;
           return <Table runs={items} unit={unit} />;
         }}
       </Loaded>

@@ -1,15 +1,15 @@
-// The trials of a method that decides each one: a dozen points, one a trial, by how far it came from its goal.
+// The trials of a few-evaluation method, one point per trial: its distance from the goal it was made for.
 
 import type { TrialProgress } from "../../api/types";
 import { Chart } from "../../charts/Chart";
 import { formatNumber, formatQuantity } from "../../lib/format";
 
-/** Distances that differ more than this are drawn on a logarithmic axis. */
+/** Ratio of the largest to the smallest distance above which the axis is logarithmic. */
 const WIDE = 30;
 
 interface Props {
   trials: readonly TrialProgress[];
-  /** Distance at which a goal is reached, where the request gives one. */
+  /** Distance at which a goal counts as reached; null if the request has none. */
   tolerance: number | null;
   unit: string;
 }
@@ -24,10 +24,10 @@ export function TrialsChart({ trials, tolerance, unit }: Props) {
   return (
     <>
       <Chart
-        summary={`${trials.length} trials; the last one, for goal ${last.goal + 1}, came as near as ${formatNumber(last.residual)} ${unit}`}
+        summary={`${trials.length} trials; the last one, for goal ${last.goal + 1}, ended ${formatNumber(last.residual)} ${unit} from it`}
         x={trials.map((trial) => trial.index + 1)}
         xLabel="trial"
-        yLabel={unit === "" ? "distance from its goal" : `distance from its goal, ${unit}`}
+        yLabel={unit === "" ? "distance from goal" : `distance from goal, ${unit}`}
         series={[{ label: "trial", values: away, color: "simulated", points: true }, ...within]}
         legend={false}
         logarithmic={seen.length > 1 && Math.min(...seen) > 0 && Math.max(...seen) > WIDE * Math.min(...seen)}
@@ -37,13 +37,13 @@ export function TrialsChart({ trials, tolerance, unit }: Props) {
         Trial {last.index + 1} was made for goal {last.goal + 1}:{" "}
         {last.residual == null ? "its observation was lost." : `${formatQuantity(last.residual, unit)} away.`}
         {tolerance !== null && ` The dashed line is the tolerance, ${formatQuantity(tolerance, unit)}.`}
-        {lost > 0 && ` ${lost} of ${trials.length} observations were lost; each cost a trial.`}
+        {lost > 0 && ` ${lost} of ${trials.length} observations were lost; each still counts as a trial.`}
       </p>
     </>
   );
 }
 
-/** The smallest distance of a trial made for `goal`; null while none was seen. */
+/** The smallest distance among the trials made for `goal`; null if none was observed. */
 export function bestOf(trials: readonly TrialProgress[], goal: number): number | null {
   const seen = trials.flatMap((trial) => (trial.goal === goal && trial.residual != null ? [trial.residual] : []));
   return seen.length === 0 ? null : Math.min(...seen);

@@ -1,4 +1,4 @@
-// The new-job form as data: its defaults by world, and the request it makes.
+// The new-job form as data: its defaults per world, and the request built from it.
 
 import type { CreateJob, ExecutionSpec, MethodChoice, Metric, World } from "../../api/types";
 import type { MethodName } from "./methods";
@@ -59,8 +59,8 @@ export const EMPTY_FORM: JobForm = {
   pace: "",
 };
 
-/** What a world suggests: the method of fewest evaluations there; for SST on a wall, a stepwise score that small,
- * patient populations climb, and 0 is perfect. */
+/** Defaults for a world: the method that needs the fewest evaluations there. For SST on a wall the discrepancy changes in
+ * steps, which a small population with long stagnation handles best, and 0 is perfect. */
 export function suggested(world: World): Partial<JobForm> {
   if (world.spec.kind === "coverage") return { method: "particle", population: "10", stagnation: "10", target: "0" };
   return { method: "model", population: "50", stagnation: "3", target: "" };
@@ -68,7 +68,7 @@ export function suggested(world: World): Partial<JobForm> {
 
 const optional = (text: string) => (text.trim() === "" ? null : Number(text));
 
-/** The request, or null while action, robot or world is not chosen. */
+/** The request, or null until action, robot and world are chosen. */
 export function requestOf(form: JobForm): CreateJob | null {
   if (form.action === "" || form.robot === "" || form.world === "") return null;
   return {
@@ -112,7 +112,7 @@ function methodOf(form: JobForm): MethodChoice {
   }
 }
 
-/** How far the simulated real robot is from its description: shares in percent and millimetres as people say them. */
+/** The simulated real robot's deviation from its description; the form has percent and millimetres, the request SI. */
 function realityOf(form: JobForm): Pick<ExecutionSpec, "reality"> {
   if (form.reality === "described") return {};
   return {

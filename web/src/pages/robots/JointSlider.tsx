@@ -11,7 +11,7 @@ interface Props {
 
 const DEGREE = 180 / Math.PI;
 
-/** One joint between its limits; angles are shown in degrees. */
+/** A slider for one joint between its limits; angles are shown in degrees. */
 export function JointSlider({ joint, value, onChange }: Props) {
   const id = useId();
   const prismatic = joint.kind === "prismatic";

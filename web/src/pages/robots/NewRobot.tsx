@@ -4,7 +4,7 @@ import { useCreateRobot } from "../../api/mutations";
 import { Card } from "../../ui/basics";
 import { Notice, Problem } from "../../ui/feedback";
 
-/** A robot from its URDF: everything but the file is optional. */
+/** Adds a robot from its URDF; everything except the file is optional. */
 export function NewRobot() {
   const create = useCreateRobot();
   const ids = useId();
@@ -35,19 +35,19 @@ export function NewRobot() {
           <div className="field">
             <label htmlFor={`${ids}name`}>Name</label>
             <input id={`${ids}name`} value={name} onChange={(event) => setName(event.currentTarget.value)} />
-            <span className="hint">The file&apos;s name when empty.</span>
+            <span className="hint">Defaults to the file name.</span>
           </div>
           <div className="field">
             <label htmlFor={`${ids}tip`}>Link that carries the tool</label>
             <input id={`${ids}tip`} value={tipLink} onChange={(event) => setTipLink(event.currentTarget.value.trim())} />
-            <span className="hint">Needed when the robot has several ends.</span>
+            <span className="hint">Required if the robot has several end links.</span>
           </div>
         </div>
-        {create.error && <Problem error={create.error} title="The robot was refused" />}
+        {create.error && <Problem error={create.error} title="The robot was rejected" />}
         {create.data && (
           <Notice tone="good" title={`${create.data.name}, version ${create.data.version}, was added`}>
             <p>
-              <Link to={`/robots/${create.data.id}`}>Look at it</Link>
+              <Link to={`/robots/${create.data.id}`}>Open</Link>
             </p>
           </Notice>
         )}

@@ -1,4 +1,4 @@
-// One robot: its figure, posed by hand within its limits, and its joints.
+// One robot: a 3-D view that sliders pose within the joint limits, and facts about its chain.
 
 import { useMemo, useState } from "react";
 import { useParams } from "react-router";
@@ -39,7 +39,7 @@ function Figure({ robot, urdf }: { robot: Robot; urdf: string }) {
   const movable = useMemo(() => movableJoints(robot), [robot]);
   return (
     <div className="columns wide-first">
-      <Card title="Figure">
+      <Card title="3-D view">
         <Viewer urdf={urdf} mounting={mounting} joints={joints} summary={`Robot ${robot.name} in the pose set by the sliders`} />
       </Card>
       <div className="stack">

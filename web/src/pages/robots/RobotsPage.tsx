@@ -13,7 +13,7 @@ export function RobotsPage() {
   const worlds = useWorlds();
   return (
     <>
-      <PageHead title="Robots" lead="What executes actions, and the worlds in which it does. Every version is immutable." />
+      <PageHead title="Robots" lead="Robots that execute actions, and the worlds they act in. Every version is immutable." />
       <div className="stack">
         <Loaded query={robots}>
           {(data) => (
@@ -40,7 +40,7 @@ export function RobotsPage() {
 function RobotTable({ robots }: { robots: Robot[] }) {
   if (robots.length === 0) {
     return (
-      <Empty title="No robot yet">
+      <Empty title="No robots yet">
         <p className="muted">Add one below from its URDF.</p>
       </Empty>
     );
@@ -80,9 +80,9 @@ function RobotTable({ robots }: { robots: Robot[] }) {
 function WorldTable({ worlds }: { worlds: World[] }) {
   if (worlds.length === 0) {
     return (
-      <Empty title="No world yet">
+      <Empty title="No worlds yet">
         <p className="muted">
-          Worlds are added over the interface: <code>POST /api/v1/worlds</code>.
+          Add worlds through the API: <code>POST /api/v1/worlds</code>.
         </p>
       </Empty>
     );

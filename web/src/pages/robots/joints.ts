@@ -1,4 +1,4 @@
-// The joints a person may turn: those of the chain with the limits that hold there, then the rest of the robot's.
+// The joints a person may move: those of the chain with the limits that apply to it, then the robot's others.
 
 import type { Robot } from "../../api/types";
 
@@ -7,14 +7,14 @@ export interface MovableJoint {
   kind: string;
   /** Whether an optimiser moves it. */
   free: boolean;
-  /** rad or m; null without limit. */
+  /** rad or m; null if unlimited. */
   lower: number | null;
   upper: number | null;
 }
 
 const MOVABLE = ["revolute", "continuous", "prismatic"];
 
-/** Free joints first, in gene order; joints that follow another one are left out. */
+/** Free joints first, in gene order; mimic joints are left out. */
 export function movableJoints({ chain, summary }: Robot): MovableJoint[] {
   const free = chain.free_joints.map(({ name, kind, lower, upper }) => ({ name, kind, lower, upper, free: true }));
   const taken = new Set(free.map((joint) => joint.name));

@@ -1,10 +1,10 @@
 import type { RunGoals } from "../../api/types";
 import { formatCount, formatNumber, humanize } from "../../lib/format";
 
-/** What was asked for and what was observed, goal by goal. */
+/** Goal and observation, side by side for each goal. */
 export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) {
   return (
-    <div className="table-scroll" role="region" aria-label="Goals, asked for and reached" tabIndex={0}>
+    <div className="table-scroll" role="region" aria-label="Goals and observations" tabIndex={0}>
       <table className="compact">
         <thead>
           <tr>
@@ -15,7 +15,7 @@ export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) 
                 {feature.unit && `, ${feature.unit}`}
               </th>
             ))}
-            <th scope="col" className="numeric">Away</th>
+            <th scope="col" className="numeric">Distance</th>
             <th scope="col" className="numeric">Discrepancy</th>
             <th scope="col" className="numeric">Evaluations</th>
             <th scope="col">Ended by</th>

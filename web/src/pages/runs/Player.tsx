@@ -9,10 +9,10 @@ interface Props {
   marks: readonly number[];
 }
 
-/** Steps of the scrubber; whole ones, so that its end is the trajectory's end exactly. */
+/** Steps of the scrubber; an integer, so that its last step is exactly the trajectory's end. */
 const STEPS = 1000;
 
-/** Play, pause, scrub, speed; the ticks are the goals. */
+/** Play, pause, scrub and speed controls; the ticks mark the goals. */
 export function Player({ play, durationS, marks }: Props) {
   const seconds = (time: number) => `${formatNumber(time, 3)} s`;
   return (

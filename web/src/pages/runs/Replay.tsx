@@ -1,4 +1,4 @@
-// The trajectory in 3-D: the robot from its URDF, the tool's trail beside the goals, the wall's cells as they are painted.
+// The trajectory in 3-D: the robot from its URDF, the tool's trail next to the goals, the wall's cells as they get painted.
 
 import { useMemo, useState } from "react";
 import { useRobot, useRunTrajectory, useUrdf, useWorld } from "../../api/queries";
@@ -17,7 +17,7 @@ import { usePlayback } from "./usePlayback";
 
 const MAX_TRAIL = 1500;
 
-/** The part of a trajectory that is drawn. */
+/** The fields of a trajectory needed to draw it. */
 type Motion = Pick<Trajectory, "joint_names" | "points" | "duration_s" | "goal_times_s">;
 
 export function Replay({ run, goals }: { run: Run; goals: RunGoals }) {
@@ -28,7 +28,7 @@ export function Replay({ run, goals }: { run: Run; goals: RunGoals }) {
   const urdf = useUrdf(run.robot);
   const world = useWorld(run.world);
   return (
-    <Card title={planned ? "Replay" : "Poses found, one a second"} aside={<Legend world={world.data} />}>
+    <Card title={planned ? "Replay" : "Poses found, one per second"} aside={<Legend world={world.data} />}>
       <Loaded query={planned ? trajectory : { data: poses, error: null }}>
         {(path) =>
           robot.data !== undefined && urdf.data !== undefined && world.data !== undefined ? (
@@ -91,7 +91,7 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
         </span>
         {last !== undefined && (
           <span className="muted">
-            reached{" "}
+            observed{" "}
             {goals.features.map((feature, column) => `${feature.name} ${formatQuantity(last.observation[column], feature.unit)}`).join(", ")}
           </span>
         )}
@@ -100,7 +100,7 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
   );
 }
 
-/** Without a trajectory: the poses of the goals, a second apart. It is drawn, never executed. */
+/** Stand-in for a missing trajectory: the poses of the goals, one second apart. For drawing only, never executed. */
 function throughPoses({ goals, joint_names: names }: RunGoals): Motion {
   const points = goals.map((goal, index) => ({ t_s: index, positions: goal.joints, velocities: [], accelerations: [] }));
   return { joint_names: names, points, duration_s: Math.max(1, goals.length - 1), goal_times_s: points.map((point) => point.t_s) };

@@ -1,4 +1,4 @@
-// One finished run: its figures, the replay of its trajectory, its convergence, its goals.
+// One finished run: key figures, replay of the trajectory, convergence and goals.
 
 import { useParams } from "react-router";
 import { useConvergence, useRun, useRunGoals } from "../../api/queries";
@@ -27,7 +27,7 @@ export function RunPage() {
               <RunFacts run={data} features={goals.data?.features ?? []} />
             </Card>
             {data.trajectory == null && (
-              <Notice tone="warn" title="There is no trajectory of this run">
+              <Notice tone="warn" title="This run has no trajectory">
                 <p>{data.trajectory_problem}</p>
               </Notice>
             )}
@@ -35,7 +35,7 @@ export function RunPage() {
             <Card title="Discrepancy">
               <ConvergenceChart run={data} goals={goals.data} />
             </Card>
-            <Card title="Goals" flush aside={<span className="muted small">asked for → reached</span>}>
+            <Card title="Goals" flush aside={<span className="muted small">goal → observed</span>}>
               <Loaded query={goals}>{(reached) => <GoalsTable goals={reached} />}</Loaded>
             </Card>
           </div>
@@ -110,7 +110,7 @@ function ConvergenceChart({ run, goals }: { run: Run; goals: RunGoals | undefine
     <Loaded query={convergence}>
       {({ points }) => (
         <Chart
-          summary={`Best discrepancy over ${formatCount(run.evaluations)} evaluations, at the end ${formatNumber(run.discrepancy)} ${unit}`}
+          summary={`Best discrepancy over ${formatCount(run.evaluations)} evaluations; final value ${formatNumber(run.discrepancy)} ${unit}`}
           x={points.map((point) => point.evaluations)}
           xLabel="evaluations"
           yLabel={unit === "" ? "discrepancy" : `discrepancy, ${unit}`}

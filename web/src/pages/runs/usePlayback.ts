@@ -9,7 +9,7 @@ export interface Playback {
   setSpeed: (speed: number) => void;
 }
 
-/** A clock from 0 to `durationS` that runs in animation frames while playing, and stops at the end. */
+/** A clock from 0 to `durationS` that advances with animation frames while playing and stops at the end. */
 export function usePlayback(durationS: number): Playback {
   const [timeS, setTimeS] = useState(0);
   const [playing, setPlaying] = useState(false);
