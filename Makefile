@@ -48,9 +48,9 @@ test: setup-test ## every gate and every test
 check: check-rust check-web image-lint ## formatting, lints, documentation, dependencies
 
 check-rust:
-	cargo fmt --check
-	cargo clippy --locked --all-targets --quiet -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --document-private-items --quiet
+	cargo fmt --all --check
+	cargo clippy --locked --workspace --all-targets --quiet -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --document-private-items --quiet
 	$(TOOLS)/cargo-deny --offline check --hide-inclusion-graph bans licenses sources 2>&1 | tail -n 1
 	$(TOOLS)/cargo-shear
 
@@ -61,7 +61,7 @@ image-lint:
 	$(TOOLS)/hadolint Dockerfile
 
 test-rust: ## unit, property, golden and black-box tests
-	cargo test --locked --quiet
+	cargo test --locked --workspace --quiet
 
 test-web: web/node_modules/.package-lock.json ## unit tests of the dashboard
 	cd web && npm run --silent test
@@ -75,7 +75,7 @@ test-examples: ## the client scripts of examples/ over REST and gRPC
 	tests/examples.sh target/debug/cgda $(TOOLS)/python
 
 torture: setup-test ## the slow suites: repeated kills, long runs
-	cargo test --locked --release -- --ignored
+	cargo test --locked --workspace --release -- --ignored
 
 bench: ## ratios of the hot paths
 	cargo bench --locked
@@ -87,7 +87,7 @@ audit: setup-test ## known vulnerabilities (needs the advisory database on the n
 	$(TOOLS)/cargo-deny check advisories
 
 fmt: ## format everything
-	cargo fmt
+	cargo fmt --all
 
 clean: ## remove what was built
 	cargo clean

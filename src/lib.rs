@@ -4,7 +4,7 @@
 //! # The map
 //! | folder | what lives there | may import |
 //! |---|---|---|
-//! | [`framework`] | CGDA itself: pure science, no I/O | nothing of ours |
+//! | [`framework`] | CGDA itself: pure science, no I/O; the package `cgda-core` | nothing of ours |
 //! | [`app`] | the one service layer: use-cases and ports | `framework` |
 //! | [`store`], [`evaluate`], [`jobs`] | what the ports are plugged into | `app`, `framework` |
 //! | [`http`], [`grpc`] | thin edges: extract, one `app` call, convert | `app`, value types of `framework` |
@@ -22,10 +22,11 @@ pub mod app;
 pub mod cli;
 pub mod config;
 pub mod evaluate;
-pub mod framework;
 pub mod grpc;
 pub mod http;
 pub mod jobs;
 pub mod lifecycle;
 pub mod store;
 pub mod telemetry;
+
+pub use cgda_core as framework;

@@ -19,7 +19,7 @@ use super::penalty::{self, PenaltyState, penalised};
 use super::set::{Constraints, Proposal};
 use super::spec::{HandlingSpec, OnInfeasible, PenaltyKind};
 use super::state::{ConstrainedState, STATE_VERSION, Waiting};
-use crate::framework::optimizer::{
+use crate::optimizer::{
     Batch, Best, Hall, Optimizer, OptimizerError, OptimizerState, Outcome, RandomStream, SearchSpace, StopReason, Tally,
 };
 use std::sync::Arc;

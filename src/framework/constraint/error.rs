@@ -82,7 +82,7 @@ pub enum ConstraintError {
     },
     /// The constrained link is not on the robot.
     #[error("the constrained point cannot be reached: {0}")]
-    Point(#[from] crate::framework::robot::ChainError),
+    Point(#[from] crate::robot::ChainError),
     /// Nothing could be appended: the strategy gives an infeasible candidate no discrepancy.
     #[error(
         "on_infeasible \"append\" needs handling \"penalty\": {strategy} gives an infeasible candidate no discrepancy, so \

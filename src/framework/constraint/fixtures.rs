@@ -1,7 +1,7 @@
 //! The paper's arm and its constraint chain, for this module's tests.
 
 use super::spec::{ChainJoint, PointSpec};
-use crate::framework::robot::{Chain, RobotModel, RobotSpec};
+use crate::robot::{Chain, RobotModel, RobotSpec};
 
 pub(super) struct Arm {
     pub model: RobotModel,

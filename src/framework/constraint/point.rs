@@ -3,7 +3,7 @@
 use super::error::ConstraintError;
 use super::geometry::finite;
 use super::spec::{ChainJoint, PointSpec};
-use crate::framework::robot::{Chain, RobotModel, RobotSpec, tool_position};
+use crate::robot::{Chain, RobotModel, RobotSpec, tool_position};
 use nalgebra::{Rotation3, Unit, Vector3};
 
 /// One revolute joint of a written-out chain.

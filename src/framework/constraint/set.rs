@@ -7,7 +7,7 @@ use super::error::ConstraintError;
 use super::geometry::{LEAST_VIOLATION, Region, finite, positive};
 use super::point::Point;
 use super::spec::{ConstraintSpec, Side};
-use crate::framework::robot::{Chain, RobotModel, RobotSpec};
+use crate::robot::{Chain, RobotModel, RobotSpec};
 
 /// A candidate and what its constraints refer to; joints in gene order, rad or m.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! What the judge of one goal remembers; saved and resumed as it is.
 
 use super::penalty::PenaltyState;
-use crate::framework::optimizer::{Hall, OptimizerError, OptimizerState, RandomStream, SearchSpace, Tally};
+use crate::optimizer::{Hall, OptimizerError, OptimizerState, RandomStream, SearchSpace, Tally};
 use serde::{Deserialize, Serialize};
 
 /// Version of [`ConstrainedState`]; changes when its meaning does.

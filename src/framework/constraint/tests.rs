@@ -3,11 +3,11 @@
 
 use super::fixtures;
 use super::*;
-use crate::framework::execution::{Iet, Observations, Problem, ProblemError, RunResult, run, simulate};
-use crate::framework::optimizer::{Batch, MethodSpec, Optimizer, Outcome, Provenance, SearchSpace, start};
-use crate::framework::preset::shipped;
-use crate::framework::robot::Chain;
-use crate::framework::world;
+use crate::execution::{Iet, Observations, Problem, ProblemError, RunResult, run, simulate};
+use crate::optimizer::{Batch, MethodSpec, Optimizer, Outcome, Provenance, SearchSpace, start};
+use crate::preset::shipped;
+use crate::robot::Chain;
+use crate::world;
 use proptest::prelude::*;
 
 /// Regions that hold the first wax goals and cut the reachable space in different ways.

@@ -3,7 +3,7 @@
 
 use super::table::{Findings, Place, Table, check_magnitude, number, quote};
 use super::{Finding, FindingCode, ReadOptions, text};
-use crate::framework::Feature;
+use crate::Feature;
 use ::csv::{ReaderBuilder, StringRecord, Trim};
 
 /// Headers of a time column, in lower case, where none is named.

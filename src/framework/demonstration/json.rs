@@ -6,7 +6,7 @@
 
 use super::table::{Findings, Place, Table, check_magnitude};
 use super::{Finding, FindingCode, ReadOptions};
-use crate::framework::Feature;
+use crate::Feature;
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde::{Deserialize, de};
 use std::fmt;

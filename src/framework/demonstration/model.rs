@@ -1,6 +1,6 @@
 //! The demonstration and its streams, valid by construction.
 
-use crate::framework::Feature;
+use crate::Feature;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use utoipa::openapi::{RefOr, Schema};

@@ -1,6 +1,6 @@
 //! How a file is to be read: everything is optional and found from the content where absent.
 
-use crate::framework::Feature;
+use crate::Feature;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;

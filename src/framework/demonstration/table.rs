@@ -1,7 +1,7 @@
 //! What every parser fills: a stream's rows as they stand in the file, and the list of findings.
 
 use super::{Finding, FindingCode, Limits};
-use crate::framework::Feature;
+use crate::Feature;
 
 /// A stream under construction: `values` is row-major, `rows[i]` the place of sample i in its file.
 #[derive(Debug)]

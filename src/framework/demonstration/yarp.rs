@@ -3,7 +3,7 @@
 
 use super::table::{Findings, Place, Table, check_magnitude, number};
 use super::{Finding, FindingCode, ReadOptions, known_features, text};
-use crate::framework::Feature;
+use crate::Feature;
 
 pub(super) fn parse(content: &str, stream: &str, options: &ReadOptions, findings: &mut Findings) -> Option<Table> {
     if text::has_long_line(content, options.limits.line_bytes, stream, findings) {

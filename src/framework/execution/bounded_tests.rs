@@ -1,10 +1,10 @@
 //! Methods that own a run under constraints: nothing forbidden is executed, and what is left is told.
 
 use super::*;
-use crate::framework::optimizer::{Batch, Provenance, StopReason};
-use crate::framework::preset::shipped;
-use crate::framework::robot::tool_position;
-use crate::framework::world::WorldSpec;
+use crate::optimizer::{Batch, Provenance, StopReason};
+use crate::preset::shipped;
+use crate::robot::tool_position;
+use crate::world::WorldSpec;
 use proptest::prelude::*;
 use rstest::rstest;
 use serde_json::{Value, json};

@@ -2,11 +2,11 @@
 
 use super::error::ProblemError;
 use super::spec::ExecutionSpec;
-use crate::framework::constraint::{ConstraintError, HandlingSpec, Rules};
-use crate::framework::generalization::Goals;
-use crate::framework::optimizer::MethodSpec;
-use crate::framework::whole_run::Trial;
-use crate::framework::world::WorldSpec;
+use crate::constraint::{ConstraintError, HandlingSpec, Rules};
+use crate::generalization::Goals;
+use crate::optimizer::MethodSpec;
+use crate::whole_run::Trial;
+use crate::world::WorldSpec;
 
 /// Largest goal, features' unit: as large as a demonstration may be.
 const MOST_GOAL: f64 = 1e9;
@@ -141,8 +141,8 @@ pub(super) fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
 
 #[cfg(test)]
 mod tests {
-    use crate::framework::execution::{Iet, Problem};
-    use crate::framework::preset::shipped;
+    use crate::execution::{Iet, Problem};
+    use crate::preset::shipped;
     use rstest::rstest;
     use serde_json::{Value, json};
 

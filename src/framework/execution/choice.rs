@@ -8,10 +8,10 @@
 //!   to 157 mm; on a surface CMA-ES 195 for all cells, SST 228 for 97 %.
 
 use super::spec::{ExecutionSpec, Problem};
-use crate::framework::constraint::{ConstraintSpec, HandlingSpec};
-use crate::framework::optimizer::{AutoSpec, CmaEsSpec, MethodSpec, ParticleSpec};
-use crate::framework::whole_run::{CoverSpec, ModelSpec, Prior};
-use crate::framework::world::WorldSpec;
+use crate::constraint::{ConstraintSpec, HandlingSpec};
+use crate::optimizer::{AutoSpec, CmaEsSpec, MethodSpec, ParticleSpec};
+use crate::whole_run::{CoverSpec, ModelSpec, Prior};
+use crate::world::WorldSpec;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -93,9 +93,9 @@ fn needs_a_population(execution: &ExecutionSpec) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::constraint::{JointStepSpec, PenaltyForm, PenaltyKind, PenaltySpec, PopulationVelocitySpec};
-    use crate::framework::execution::{Iet, run};
-    use crate::framework::preset::shipped;
+    use crate::constraint::{JointStepSpec, PenaltyForm, PenaltyKind, PenaltySpec, PopulationVelocitySpec};
+    use crate::execution::{Iet, run};
+    use crate::preset::shipped;
     use rstest::rstest;
 
     fn problem(preset: &str, wishes: AutoSpec) -> Problem {

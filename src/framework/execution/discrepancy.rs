@@ -3,9 +3,9 @@
 //! The rows of O_1..O_j-1 are kept over all n goals, so a candidate costs j local distances and one row; the bits equal
 //! those of warping the whole observation anew.
 
-use crate::framework::generalization::Goals;
-use crate::framework::recognition::Metric;
-use crate::framework::recognition::dtw::{Border, extend_row, local_distances};
+use crate::generalization::Goals;
+use crate::recognition::Metric;
+use crate::recognition::dtw::{Border, extend_row, local_distances};
 
 /// Partial observation of one run under one metric.
 #[derive(Debug, Clone)]
@@ -90,8 +90,8 @@ impl PartialDiscrepancy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::Feature;
-    use crate::framework::recognition::discrepancy;
+    use crate::Feature;
+    use crate::recognition::discrepancy;
     use proptest::prelude::*;
 
     proptest! {

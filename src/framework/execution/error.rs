@@ -1,9 +1,9 @@
 //! Why a problem cannot be executed.
 
-use crate::framework::constraint::ConstraintError;
-use crate::framework::optimizer::OptimizerError;
-use crate::framework::robot::{ChainError, ModelError};
-use crate::framework::world::WorldError;
+use crate::constraint::ConstraintError;
+use crate::optimizer::OptimizerError;
+use crate::robot::{ChainError, ModelError};
+use crate::world::WorldError;
 
 /// A problem that cannot be run or gone on with.
 #[derive(Debug, thiserror::Error)]

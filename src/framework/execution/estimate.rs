@@ -91,9 +91,9 @@ fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::execution::run;
-    use crate::framework::optimizer::MethodSpec;
-    use crate::framework::preset::shipped;
+    use crate::execution::run;
+    use crate::optimizer::MethodSpec;
+    use crate::preset::shipped;
     use rstest::rstest;
     use std::cell::Cell;
 

@@ -17,11 +17,11 @@ use super::result::{GoalResult, Progress, RunResult, TracePoint, digest, record}
 use super::setup::Setup;
 use super::spec::Problem;
 use super::state::{GoalState, IetState, STATE_VERSION};
-use crate::framework::constraint::Proposal;
-use crate::framework::optimizer::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
-use crate::framework::robot::Chain;
-use crate::framework::whole_run::{Proposal as Next, Trial};
-use crate::framework::world::{self, World};
+use crate::constraint::Proposal;
+use crate::optimizer::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
+use crate::robot::Chain;
+use crate::whole_run::{Proposal as Next, Trial};
+use crate::world::{self, World};
 
 /// The candidate by which a winner that was never executed is executed.
 const CONFIRMATION: u64 = u64::MAX;

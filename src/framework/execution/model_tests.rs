@@ -1,13 +1,13 @@
 //! MODEL-IET through the state machine: resumption, earlier trials, stop rules, an arm with a prismatic joint.
 
 use super::*;
-use crate::framework::Feature;
-use crate::framework::generalization::Goals;
-use crate::framework::optimizer::{MethodSpec, StopReason};
-use crate::framework::preset::shipped;
-use crate::framework::robot::RobotSpec;
-use crate::framework::whole_run::{ModelSpec, Prior, Trial};
-use crate::framework::world::RealitySpec;
+use crate::Feature;
+use crate::generalization::Goals;
+use crate::optimizer::{MethodSpec, StopReason};
+use crate::preset::shipped;
+use crate::robot::RobotSpec;
+use crate::whole_run::{ModelSpec, Prior, Trial};
+use crate::world::RealitySpec;
 use rstest::rstest;
 
 /// The first `goals` goals of wax-reachable, by MODEL-IET.

@@ -5,14 +5,14 @@ use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
-use crate::framework::constraint::Proposal as Pose;
-use crate::framework::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
-use crate::framework::robot::Chain;
-use crate::framework::whole_run::{
+use crate::constraint::Proposal as Pose;
+use crate::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
+use crate::robot::Chain;
+use crate::whole_run::{
     Broyden, CoverSpec, FeatureMap, Grid, ModelIet, ModelSpec, ParticleIet, Prior, Proposal, SearchIet, Simulator,
     Space, StepLimits, Stepped, Targets, Trial, WholeRun,
 };
-use crate::framework::world::{self, CoverageSpec, SurfaceView, World, WorldSpec};
+use crate::world::{self, CoverageSpec, SurfaceView, World, WorldSpec};
 use std::sync::Arc;
 
 /// Share of the goals' extent that is near enough where no tolerance is given.

@@ -1,9 +1,9 @@
 //! Runs in a simulated real world that loses observations: every method goes on, and each lost one costs.
 
 use super::*;
-use crate::framework::optimizer::{Batch, MethodSpec, Provenance};
-use crate::framework::preset::shipped;
-use crate::framework::world::RealitySpec;
+use crate::optimizer::{Batch, MethodSpec, Provenance};
+use crate::preset::shipped;
+use crate::world::RealitySpec;
 use rstest::rstest;
 
 #[rstest]

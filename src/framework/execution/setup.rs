@@ -5,12 +5,12 @@ use super::choice::choose;
 use super::error::ProblemError;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
-use crate::framework::constraint::{Constrained, Constraints, Rules};
-use crate::framework::generalization::Goals;
-use crate::framework::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
-use crate::framework::robot::{Chain, RobotModel};
-use crate::framework::whole_run::Trial;
-use crate::framework::world::{self, CoverageSpec, SurfaceView, WorldSpec};
+use crate::constraint::{Constrained, Constraints, Rules};
+use crate::generalization::Goals;
+use crate::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
+use crate::robot::{Chain, RobotModel};
+use crate::whole_run::Trial;
+use crate::world::{self, CoverageSpec, SurfaceView, WorldSpec};
 use std::sync::Arc;
 
 /// What a run needs of its problem.

@@ -5,8 +5,8 @@ use super::iet::Iet;
 use super::observations::Observations;
 use super::result::{Progress, RunResult};
 use super::spec::Problem;
-use crate::framework::optimizer::{Batch, Provenance};
-use crate::framework::world::World;
+use crate::optimizer::{Batch, Provenance};
+use crate::world::World;
 
 /// Candidates asked for at once.
 const BATCH: u64 = 64;

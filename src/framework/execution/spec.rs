@@ -1,13 +1,13 @@
 //! A problem: all an execution needs, self-contained and serialisable, so that a job can be rerun from it alone.
 
 use super::choice::Chosen;
-use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
-use crate::framework::generalization::Goals;
-use crate::framework::optimizer::{MethodChoice, MethodSpec, method_or_name};
-use crate::framework::recognition::Metric;
-use crate::framework::robot::RobotSpec;
-use crate::framework::whole_run::Trial;
-use crate::framework::world::{RealitySpec, WorldSpec};
+use crate::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
+use crate::generalization::Goals;
+use crate::optimizer::{MethodChoice, MethodSpec, method_or_name};
+use crate::recognition::Metric;
+use crate::robot::RobotSpec;
+use crate::whole_run::Trial;
+use crate::world::{RealitySpec, WorldSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

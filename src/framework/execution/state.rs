@@ -2,8 +2,8 @@
 
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
-use crate::framework::optimizer::{OptimizerState, StopReason};
-use crate::framework::whole_run::Trial;
+use crate::optimizer::{OptimizerState, StopReason};
+use crate::whole_run::Trial;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`IetState`]; changes when its meaning does.

@@ -1,11 +1,9 @@
 //! Runs of the shipped presets: the published figures, determinism, resumption, stop rules, refusals.
 
 use super::*;
-use crate::framework::optimizer::{
-    Batch, BoundsRule, MethodSpec, Provenance, SstSpec, StopReason, SwarmSpec, VelocityClamp,
-};
-use crate::framework::preset::shipped;
-use crate::framework::world::{self, WorldSpec};
+use crate::optimizer::{Batch, BoundsRule, MethodSpec, Provenance, SstSpec, StopReason, SwarmSpec, VelocityClamp};
+use crate::preset::shipped;
+use crate::world::{self, WorldSpec};
 use proptest::prelude::*;
 use rayon::prelude::*;
 use rstest::rstest;
@@ -240,8 +238,7 @@ fn goals_may_use_some_of_the_worlds_features() {
     let mut problem = quick("wax");
     let rows: Vec<Vec<f64>> = problem.goals.rows().map(|r| vec![r[2], r[0]]).collect();
     let features = problem.goals.features();
-    problem.goals =
-        crate::framework::generalization::Goals::new(vec![features[2].clone(), features[0].clone()], &rows).unwrap();
+    problem.goals = crate::generalization::Goals::new(vec![features[2].clone(), features[0].clone()], &rows).unwrap();
     let result = run(&problem, 4).unwrap();
     assert_eq!(result.goals[0].observation.len(), 2);
     assert!((result.goals[0].observation[0] - rows[0][0]).abs() < 200.0);

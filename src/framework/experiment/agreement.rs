@@ -86,7 +86,7 @@ pub fn agreement(cells: &[PaperCell], results: &[CellResult]) -> Option<Agreemen
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::experiment::paper::PaperTables;
+    use crate::experiment::paper::PaperTables;
 
     /// A result with that many sds (raw where known, else 1) beyond the raw means; two runs of the raw sd's spread.
     fn beyond(cell: &PaperCell, sds: f64) -> CellResult {

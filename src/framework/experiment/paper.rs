@@ -6,7 +6,7 @@
 
 use super::patch::merge;
 use super::{CellSpec, ExperimentSpec, InvalidRule};
-use crate::framework::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side};
+use crate::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

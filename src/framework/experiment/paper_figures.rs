@@ -10,11 +10,11 @@ use super::figure::{
 use super::paper::PaperCell;
 use super::run::{RunError, result};
 use super::{Experiment, RunId};
-use crate::framework::demonstration::{Demonstration, Finding, ReadOptions, Stream, read};
-use crate::framework::execution::ProblemError;
-use crate::framework::generalization::{GeneralizeError, GeneralizeSpec, RbfError, RbfSpec, generalize, interpolate};
-use crate::framework::robot::{Chain, RobotModel};
-use crate::framework::world::{self, WorldSpec};
+use crate::demonstration::{Demonstration, Finding, ReadOptions, Stream, read};
+use crate::execution::ProblemError;
+use crate::generalization::{GeneralizeError, GeneralizeSpec, RbfError, RbfSpec, generalize, interpolate};
+use crate::robot::{Chain, RobotModel};
+use crate::world::{self, WorldSpec};
 
 /// The wax demonstrations of the examples, synthetic: the paper's own were not published.
 const WAX: [(&str, &str); 4] = [

@@ -1,7 +1,7 @@
 //! A cell's runs reduced to the numbers of a table, and two cells compared.
 
 use super::{Cell, Experiment, InvalidRule, PairedComparison, RunRow, Summary, compare};
-use crate::framework::world::WorldSpec;
+use crate::world::WorldSpec;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

@@ -1,7 +1,7 @@
 //! One run of a plan, start to end: a pure function of plan and id.
 
 use super::{Plan, RunId, RunRow};
-use crate::framework::execution::{self, Problem, ProblemError, RunResult};
+use crate::execution::{self, Problem, ProblemError, RunResult};
 
 /// Why a run has no row.
 #[derive(Debug, thiserror::Error)]

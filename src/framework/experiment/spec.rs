@@ -1,8 +1,8 @@
 //! An experiment as users write it, and its expansion into a self-contained plan of runs.
 
 use super::patch::merge;
-use crate::framework::execution::Problem;
-use crate::framework::preset::Preset;
+use crate::execution::Problem;
+use crate::preset::Preset;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use utoipa::ToSchema;

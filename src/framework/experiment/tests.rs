@@ -1,12 +1,12 @@
 //! An experiment from description to table: expansion, resumption, the rules for invalid runs, exports.
 
 use super::*;
-use crate::framework::execution::{ExecutionSpec, Problem};
-use crate::framework::generalization::Goals;
-use crate::framework::optimizer::{MethodSpec, PsoSpec, SstSpec, SwarmSpec, Tally};
-use crate::framework::preset::Preset;
-use crate::framework::world::{ToolPositionSpec, WorldSpec};
-use crate::framework::{Feature, recognition::Metric, robot::RobotSpec};
+use crate::execution::{ExecutionSpec, Problem};
+use crate::generalization::Goals;
+use crate::optimizer::{MethodSpec, PsoSpec, SstSpec, SwarmSpec, Tally};
+use crate::preset::Preset;
+use crate::world::{ToolPositionSpec, WorldSpec};
+use crate::{Feature, recognition::Metric, robot::RobotSpec};
 use proptest::prelude::*;
 use serde_json::json;
 

@@ -6,8 +6,8 @@
 //! those of the demonstration, not of the single stream.
 
 use super::{GeneralizeError, GeneralizeSpec, Generalized, Goals, Weighting};
-use crate::framework::Feature;
-use crate::framework::demonstration::{Demonstration, Stream};
+use crate::Feature;
+use crate::demonstration::{Demonstration, Stream};
 
 /// Largest number of goals.
 const MAX_GOALS: usize = 10_000;

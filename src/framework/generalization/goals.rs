@@ -1,6 +1,6 @@
 //! The generalized action's matrix X: n intermediate goals of m features.
 
-use crate::framework::Feature;
+use crate::Feature;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use utoipa::openapi::{RefOr, Schema};

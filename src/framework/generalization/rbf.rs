@@ -182,7 +182,7 @@ fn solve(goals: &Goals, kernel: RbfKernel, epsilon: f64) -> Option<DMatrix<f64>>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::Feature;
+    use crate::Feature;
     use proptest::prelude::*;
 
     const KERNELS: [RbfKernel; 6] = [

@@ -1,7 +1,7 @@
 //! Goals as CSV: one row a goal, one column a feature, header `name [unit]` first.
 
 use super::{Goals, GoalsError};
-use crate::framework::Feature;
+use crate::Feature;
 use std::fmt::Write as _;
 
 /// Why a text is no table of goals.

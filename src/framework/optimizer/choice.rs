@@ -45,8 +45,8 @@ impl<'de> Visitor<'de> for MethodVisitor {
 
 #[cfg(test)]
 mod tests {
-    use crate::framework::execution::ExecutionSpec;
-    use crate::framework::optimizer::MethodSpec;
+    use crate::execution::ExecutionSpec;
+    use crate::optimizer::MethodSpec;
 
     fn read(json: &str) -> Result<ExecutionSpec, String> {
         serde_json::from_str(json).map_err(|error| error.to_string())

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The best individual so far, kept whole: joints (rad or m), observation and fitness (features' unit).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::framework) struct Hall {
+pub(crate) struct Hall {
     pub joints: Vec<f64>,
     pub observation: Vec<f64>,
     pub fitness: f64,

@@ -27,13 +27,13 @@ pub use batch::Batch;
 pub use bounds::BoundsRule;
 pub use choice::{MethodChoice, method_or_name};
 pub use cma_es::{CmaEs, CmaEsSpec, CmaEsState};
-pub(in crate::framework) use hall::Hall;
+pub(crate) use hall::Hall;
 pub use rng::RandomStream;
 pub use spec::{AutoSpec, MethodSpec, ParticleSpec, SstSpec};
 pub use sst::{Sst, SstState};
 pub use swarm::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, SwarmState, VelocityClamp};
 
-use crate::framework::constraint::ConstrainedState;
+use crate::constraint::ConstrainedState;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

@@ -4,7 +4,7 @@
 use super::bounds::BoundsRule;
 use super::cma_es::CmaEsSpec;
 use super::swarm::{AffgPsoSpec, FiPsoSpec, PsoSpec};
-use crate::framework::whole_run::{BroydenSpec, CoverSpec, ModelSpec};
+use crate::whole_run::{BroydenSpec, CoverSpec, ModelSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

@@ -3,11 +3,11 @@
 //! Pure: the text of a named file comes from the caller's resolver. The shipped presets (`examples/presets`) are part
 //! of the program, so that they work wherever it is installed.
 
-use crate::framework::execution::{ExecutionSpec, Problem};
-use crate::framework::generalization::Goals;
-use crate::framework::optimizer::MethodSpec;
-use crate::framework::robot::RobotSpec;
-use crate::framework::world::WorldSpec;
+use crate::execution::{ExecutionSpec, Problem};
+use crate::generalization::Goals;
+use crate::optimizer::MethodSpec;
+use crate::robot::RobotSpec;
+use crate::world::WorldSpec;
 use serde::Deserialize;
 
 /// A named problem.
@@ -189,7 +189,7 @@ pub fn parse_world(file: &str, text: &str) -> Result<WorldSpec, PresetError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::execution::Iet;
+    use crate::execution::Iet;
 
     #[test]
     fn every_shipped_preset_can_be_run() {

@@ -2,7 +2,7 @@
 
 use super::Metric;
 use super::dtw::{self, Border};
-use crate::framework::Feature;
+use crate::Feature;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

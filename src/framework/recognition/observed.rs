@@ -1,8 +1,8 @@
 //! A demonstration as one matrix of observations: what recognition compares with goals.
 
-use crate::framework::Feature;
-use crate::framework::demonstration::{Demonstration, Stream};
-use crate::framework::generalization::{Goals, GoalsError};
+use crate::Feature;
+use crate::demonstration::{Demonstration, Stream};
+use crate::generalization::{Goals, GoalsError};
 
 /// Why a demonstration makes no matrix of observations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -12,8 +12,8 @@
 
 use super::discrepancy::detailed;
 use super::{FeatureDiscrepancy, Metric};
-use crate::framework::Feature;
-use crate::framework::generalization::Goals;
+use crate::Feature;
+use crate::generalization::Goals;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

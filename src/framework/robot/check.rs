@@ -4,7 +4,7 @@
 //! former are errors with the joint's name and the latter is tolerated, so that such a robot can still be looked at.
 
 use super::error::ModelError;
-use crate::framework::is_hidden;
+use crate::is_hidden;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 

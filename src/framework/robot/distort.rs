@@ -34,7 +34,7 @@ impl Chain {
 
 #[cfg(test)]
 mod tests {
-    use crate::framework::robot::{Chain, RobotModel, RobotSpec, tool_position};
+    use crate::robot::{Chain, RobotModel, RobotSpec, tool_position};
 
     const TWO_LINKS: &str = r#"<robot name="two"><link name="a"/><link name="b"/><link name="c"/><link name="t"/>
         <joint name="j1" type="revolute"><parent link="a"/><child link="b"/><origin xyz="0 0 1"/><axis xyz="0 1 0"/>

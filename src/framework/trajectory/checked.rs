@@ -49,7 +49,7 @@ pub struct Tightest {
 
 /// Limits of one joint as planned with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub(in crate::framework) struct JointLimits {
+pub(crate) struct JointLimits {
     pub name: String,
     pub lower: f64,
     pub upper: f64,

@@ -10,7 +10,7 @@ mod plan;
 #[cfg(test)]
 mod tests;
 
-pub(in crate::framework) use checked::JointLimits;
+pub(crate) use checked::JointLimits;
 pub use checked::{CheckedTrajectory, LimitKind, Point, Tightest, TrajectoryError};
 pub use plan::{DEFAULT_ACCELERATION, DEFAULT_VELOCITY, PlanSpec, plan};
-pub(in crate::framework) use plan::{late, limits};
+pub(crate) use plan::{late, limits};

@@ -5,7 +5,7 @@
 //! joint, max |v| = 15/8 |dq| / T and max |a| = 10/sqrt(3) |dq| / T^2; T is the least that keeps every joint's limits.
 
 use super::checked::{CheckedTrajectory, JointLimits, Point, TrajectoryError};
-use crate::framework::robot::Chain;
+use crate::robot::Chain;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -139,7 +139,7 @@ pub fn limits(chain: &Chain) -> (Vec<JointLimits>, Vec<String>) {
         .genes()
         .iter()
         .map(|gene| {
-            let unit = if gene.kind == crate::framework::robot::JointKind::Prismatic { "m" } else { "rad" };
+            let unit = if gene.kind == crate::robot::JointKind::Prismatic { "m" } else { "rad" };
             JointLimits {
                 name: gene.name.clone(),
                 lower: gene.lower,

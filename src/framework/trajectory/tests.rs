@@ -1,8 +1,8 @@
 //! Plans keep limits and smoothness; what breaks them is refused; exports hold every sample.
 
 use super::*;
-use crate::framework::preset::shipped;
-use crate::framework::robot::{Chain, RobotModel, RobotSpec};
+use crate::preset::shipped;
+use crate::robot::{Chain, RobotModel, RobotSpec};
 use proptest::prelude::*;
 
 fn arm() -> Chain {

@@ -1,6 +1,6 @@
 //! The joint space a method searches: limits, kinds, home and forbidden poses; identification moves follow from it.
 
-use crate::framework::robot::{Chain, Gene, JointKind};
+use crate::robot::{Chain, Gene, JointKind};
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;

@@ -2,10 +2,10 @@
 
 use super::tests::interrupted;
 use super::{Axis, CoverSpec, Grid, Proposal, SearchIet, Space, Trial, WholeRun};
-use crate::framework::execution::{Iet, Problem, run, simulate};
-use crate::framework::optimizer::{MethodSpec, ParticleSpec, StopReason};
-use crate::framework::preset;
-use crate::framework::world::{SurfaceView, WorldSpec};
+use crate::execution::{Iet, Problem, run, simulate};
+use crate::optimizer::{MethodSpec, ParticleSpec, StopReason};
+use crate::preset;
+use crate::world::{SurfaceView, WorldSpec};
 use rstest::rstest;
 
 fn search(poses: u32, max_evaluations: u32) -> MethodSpec {

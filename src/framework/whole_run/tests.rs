@@ -4,9 +4,9 @@ use super::columns::Columns;
 use super::kernel::{Kernel, Poses};
 use super::process::{Family, Process};
 use super::{Axis, BroydenSpec, ModelIet, ModelSpec, Proposal, Space, Trial, WholeRun};
-use crate::framework::execution::{Iet, IetState, Problem, RunResult, run, simulate};
-use crate::framework::optimizer::MethodSpec;
-use crate::framework::preset;
+use crate::execution::{Iet, IetState, Problem, RunResult, run, simulate};
+use crate::optimizer::MethodSpec;
+use crate::preset;
 use nalgebra::DMatrix;
 
 fn axis(revolute: bool) -> Axis {

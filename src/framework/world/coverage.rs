@@ -1,8 +1,8 @@
 //! The coverage world (the paper's paint): which cells of a grid the tool has come near.
 
 use super::{CoverageSpec, SurfaceView, World, WorldError};
-use crate::framework::Feature;
-use crate::framework::robot::{Chain, tool_position};
+use crate::Feature;
+use crate::robot::{Chain, tool_position};
 use nalgebra::Vector3;
 
 /// Most cells a surface may have.

@@ -16,8 +16,8 @@ pub use error::WorldError;
 pub use real::{RealitySpec, build_real};
 pub use spec::{CoverageSpec, SurfaceView, ToolPositionSpec, WorldSpec};
 
-use crate::framework::Feature;
-use crate::framework::robot::Chain;
+use crate::Feature;
+use crate::robot::Chain;
 
 /// A simulated world that remembers the poses executed since its last reset (the prefix U_1..U_j-1).
 pub trait World: Send {

@@ -5,9 +5,9 @@
 //! resumes and threads change no bit. A lost observation is NaN in every feature.
 
 use super::{World, WorldError, WorldSpec, build};
-use crate::framework::Feature;
-use crate::framework::robot::Chain;
-use crate::framework::trajectory::{JointLimits, late, limits};
+use crate::Feature;
+use crate::robot::Chain;
+use crate::trajectory::{JointLimits, late, limits};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
@@ -181,9 +181,9 @@ impl World for Real {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::preset::shipped;
-    use crate::framework::robot::RobotModel;
-    use crate::framework::trajectory::{PlanSpec, plan};
+    use crate::preset::shipped;
+    use crate::robot::RobotModel;
+    use crate::trajectory::{PlanSpec, plan};
     use rstest::rstest;
 
     fn wax() -> (WorldSpec, Chain) {

@@ -1,7 +1,7 @@
 //! Known values and refusals of worlds, on the shipped files.
 
 use super::*;
-use crate::framework::robot::{Chain, RobotModel, RobotSpec};
+use crate::robot::{Chain, RobotModel, RobotSpec};
 use proptest::prelude::*;
 use rstest::rstest;
 
@@ -33,7 +33,7 @@ fn tool_position_is_in_millimetres() {
     for (found, known) in seen.iter().zip([6.3074, -340.6126, 0.0]) {
         assert!((found - known).abs() < 1e-4, "{seen:?}");
     }
-    assert_eq!(world.features()[2], crate::framework::Feature::new("z", "mm"));
+    assert_eq!(world.features()[2], crate::Feature::new("z", "mm"));
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! The tool-position world (the paper's wax): the observation is where the tool is, whatever was executed before.
 
 use super::{ToolPositionSpec, World, WorldError};
-use crate::framework::Feature;
-use crate::framework::robot::{Chain, tool_position};
+use crate::Feature;
+use crate::robot::{Chain, tool_position};
 
 /// Features x, y, z of `p_BT` in the chosen unit.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! Parameters of CMA-ES as users write them. Lengths are shares of a joint's range.
 
-use crate::framework::optimizer::{BoundsRule, OptimizerError};
+use crate::optimizer::{BoundsRule, OptimizerError};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

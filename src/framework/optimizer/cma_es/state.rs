@@ -1,11 +1,9 @@
 //! What a CMA-ES remembers; saved and resumed as it is.
 
 use super::distribution::Distribution;
-use crate::framework::optimizer::hall::Hall;
-use crate::framework::optimizer::waiting::Waiting;
-use crate::framework::optimizer::{
-    OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null,
-};
+use crate::optimizer::hall::Hall;
+use crate::optimizer::waiting::Waiting;
+use crate::optimizer::{OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null};
 use serde::{Deserialize, Serialize};
 
 /// Version of [`CmaEsState`]; changes when its meaning does.

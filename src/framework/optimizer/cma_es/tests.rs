@@ -1,7 +1,7 @@
 //! Convergence on functions with a known minimum, warm starts, restarts, independence of batch sizes, resumption.
 
 use super::*;
-use crate::framework::optimizer::{BoundsRule, MethodSpec, resume, start};
+use crate::optimizer::{BoundsRule, MethodSpec, resume, start};
 use proptest::prelude::*;
 use rstest::rstest;
 

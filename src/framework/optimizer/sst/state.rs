@@ -1,10 +1,8 @@
 //! What a steady-state tournament remembers; saved and resumed as it is.
 
-use crate::framework::optimizer::hall::Hall;
-use crate::framework::optimizer::waiting::Waiting;
-use crate::framework::optimizer::{
-    OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null,
-};
+use crate::optimizer::hall::Hall;
+use crate::optimizer::waiting::Waiting;
+use crate::optimizer::{OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null};
 use serde::{Deserialize, Serialize};
 
 /// Version of [`SstState`]; changes when its meaning does.

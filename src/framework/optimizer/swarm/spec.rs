@@ -1,6 +1,6 @@
 //! Parameters of the particle swarms as users write them. Lengths are genes: rad (or m).
 
-use crate::framework::optimizer::{BoundsRule, OptimizerError};
+use crate::optimizer::{BoundsRule, OptimizerError};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -87,7 +87,7 @@ pub enum Leader {
 impl SwarmSpec {
     /// # Errors
     /// [`OptimizerError::Parameter`] with the parameter, its value and its range.
-    pub(in crate::framework::optimizer) fn check(&self, method: &'static str) -> Result<(), OptimizerError> {
+    pub(in crate::optimizer) fn check(&self, method: &'static str) -> Result<(), OptimizerError> {
         let out = |parameter, value, expected| Err(OptimizerError::Parameter { method, parameter, value, expected });
         if !(2..=100_000).contains(&self.population) {
             return out("population", f64::from(self.population), "2 to 100000 are allowed");

@@ -2,11 +2,9 @@
 
 use super::movement::limited;
 use super::spec::SwarmSpec;
-use crate::framework::optimizer::hall::Hall;
-use crate::framework::optimizer::waiting::Waiting;
-use crate::framework::optimizer::{
-    OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, Tally, infinite_as_null,
-};
+use crate::optimizer::hall::Hall;
+use crate::optimizer::waiting::Waiting;
+use crate::optimizer::{OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, Tally, infinite_as_null};
 use serde::{Deserialize, Serialize};
 
 /// Version of [`SwarmState`]; changes when its meaning does.

@@ -1,7 +1,7 @@
 //! Semantics of memory, leader and hall of fame, independence of batch sizes, resumption, and golden runs.
 
 use super::*;
-use crate::framework::optimizer::{MethodSpec, resume, start};
+use crate::optimizer::{MethodSpec, resume, start};
 use proptest::prelude::*;
 use rstest::rstest;
 

@@ -3,7 +3,7 @@
 //! # Architecture Invariants
 //! - Pure: no async, no I/O, no clock, no environment, no global random source, no logging.
 //! - SI units and radians inside; *features* keep the unit their demonstration declares.
-//! - Imports nothing else of this crate.
+//! - A package of its own, `cgda-core`; the service re-exports it as `cgda::framework`.
 
 #![warn(missing_docs)]
 
