@@ -13,6 +13,7 @@ const MAX_LINES: usize = 500;
 
 /// Folder or file under `src/` -> the modules of this crate it may name. What is not listed here may name everything.
 const MAY_IMPORT: &[(&str, &[&str])] = &[
+    ("app/model", &["framework"]),
     ("app", &["app", "framework"]),
     ("store", &["store", "app", "framework"]),
     ("evaluate", &["evaluate", "app", "framework"]),

@@ -9,27 +9,21 @@
 mod access;
 pub mod actions;
 pub mod demonstrations;
-mod error;
 pub mod experiments;
-pub mod id;
 pub mod jobs;
-mod null_as_infinite;
-mod page;
+pub mod model;
 pub mod ports;
 pub mod recognitions;
 pub mod robots;
 pub mod runs;
 pub mod shape;
-mod time;
 pub mod trajectories;
 pub mod worlds;
 
 pub use access::Access;
-pub use error::{AppError, ErrorKind, FieldError};
-pub use page::{DEFAULT_PAGE_SIZE, Keyset, MAX_PAGE_SIZE, Page, PageQuery};
-pub use time::Timestamp;
 
 use crate::framework::is_hidden;
+use model::{AppError, ErrorKind, Timestamp};
 use ports::{Clock, Events, Ids, Store};
 use std::sync::Arc;
 use tokio::sync::watch;

@@ -1,46 +1,10 @@
 //! Robots: a URDF and the part of it that moves; every version is immutable.
 
-use crate::app::id::RobotId;
+use crate::app::model::{AppError, CreateRobot, Keyset, Page, PageQuery, RobotId, RobotView};
 use crate::app::ports::NewRobot;
-use crate::app::{App, AppError, Keyset, Page, PageQuery, Timestamp, chain_text, check_name, compute};
+use crate::app::{App, chain_text, check_name, compute};
 use crate::framework::robot::{Chain, ChainSummary, RobotModel, RobotSpec, RobotSummary, summarize, summarize_chain};
-use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
-use utoipa::ToSchema;
-
-/// A new robot, or a new version of one when the name is taken.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CreateRobot {
-    /// Display name.
-    pub name: String,
-    /// The URDF, as text.
-    pub urdf: String,
-    /// Chain, free joints, tool.
-    #[serde(default)]
-    pub spec: RobotSpec,
-}
-
-/// One immutable version of a robot, without its URDF.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct RobotView {
-    /// Its id.
-    pub id: RobotId,
-    /// Display name; versions of one robot share it.
-    pub name: String,
-    /// 1 for the first of that name, then counted up.
-    pub version: u32,
-    /// Chain, free joints, tool, as they were given.
-    pub spec: RobotSpec,
-    /// The part that moves.
-    pub chain: ChainSummary,
-    /// The whole robot.
-    pub summary: RobotSummary,
-    /// SHA-256 of the URDF, hexadecimal.
-    pub urdf_sha256: String,
-    /// When it was created.
-    pub created_at: Timestamp,
-}
 
 fn read(urdf: &str, spec: &RobotSpec) -> Result<(RobotSummary, ChainSummary), AppError> {
     let model =

@@ -1,7 +1,7 @@
 //! A document and what was understood of it have the same shape. Serde also takes a list for an object, by position,
 //! and a number for the name of a variant; nobody who writes one means it.
 
-use crate::app::AppError;
+use crate::app::model::AppError;
 use serde_json::Value;
 
 /// Compares what was sent with what was understood, written out again. A name that stands for an object with its
@@ -42,7 +42,7 @@ fn kind(value: &Value) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::jobs::CreateJob;
+    use crate::app::model::CreateJob;
     use serde_json::json;
 
     fn place(execution: &Value) -> Option<String> {

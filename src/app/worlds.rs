@@ -1,36 +1,8 @@
 //! Worlds: where effects happen.
 
-use crate::app::id::WorldId;
-use crate::app::{App, AppError, Keyset, Page, PageQuery, Timestamp, chain_text, check_name};
-use crate::framework::Feature;
-use crate::framework::world::{self, WorldSpec};
-use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
-
-/// A new world.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CreateWorld {
-    /// Display name.
-    pub name: String,
-    /// What it is.
-    pub spec: WorldSpec,
-}
-
-/// A world; it never changes.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct WorldView {
-    /// Its id.
-    pub id: WorldId,
-    /// Display name.
-    pub name: String,
-    /// What it is.
-    pub spec: WorldSpec,
-    /// What is observed in it.
-    pub features: Vec<Feature>,
-    /// When it was created.
-    pub created_at: Timestamp,
-}
+use crate::app::model::{AppError, CreateWorld, Keyset, Page, PageQuery, WorldId, WorldView};
+use crate::app::{App, chain_text, check_name};
+use crate::framework::world::{self};
 
 impl App {
     /// Checks and keeps a world.

@@ -1,7 +1,8 @@
 //! Who is let in: the holder of the token, as `authorization: Bearer TOKEN` in the metadata.
 
 use super::error::status;
-use crate::app::{Access, AppError, ErrorKind};
+use crate::app::Access;
+use crate::app::model::{AppError, ErrorKind};
 use tonic::service::Interceptor;
 use tonic::{Request, Status};
 

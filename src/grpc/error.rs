@@ -1,6 +1,6 @@
 //! What each kind of error is over gRPC: one exhaustive match, with the details of google.rpc.
 
-use crate::app::{AppError, ErrorKind};
+use crate::app::model::{AppError, ErrorKind};
 use std::collections::HashMap;
 use std::time::Duration;
 use tonic::{Code, Status};
@@ -43,7 +43,7 @@ pub fn status(error: AppError) -> Status {
     Status::with_error_details(code(error.kind), error.message, details)
 }
 
-fn violation(field: &crate::app::FieldError) -> FieldViolation {
+fn violation(field: &crate::app::model::FieldError) -> FieldViolation {
     let mut violation = FieldViolation::new(&field.pointer, &field.detail);
     violation.reason.clone_from(&field.code);
     violation
@@ -52,7 +52,7 @@ fn violation(field: &crate::app::FieldError) -> FieldViolation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::FieldError;
+    use crate::app::model::FieldError;
 
     #[test]
     fn the_code_the_places_and_the_delay_are_in_the_details() {

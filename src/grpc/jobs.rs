@@ -5,7 +5,7 @@ use super::convert::{id, items, page, text, work};
 use super::error::status;
 use super::proto;
 use crate::app::App;
-use crate::app::jobs::JobFilter;
+use crate::app::model::JobFilter;
 use futures_util::StreamExt as _;
 use futures_util::stream::BoxStream;
 use proto::job_service_server::JobService;

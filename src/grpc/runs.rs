@@ -4,7 +4,7 @@ use super::convert::{id, items, page, reference};
 use super::error::status;
 use super::proto;
 use crate::app::App;
-use crate::app::runs::RunFilter;
+use crate::app::model::RunFilter;
 use proto::run_service_server::RunService;
 use tonic::{Request, Response, Status};
 

@@ -2,9 +2,7 @@
 
 use super::API;
 use super::extract::Json;
-use crate::app::PageQuery;
-use crate::app::demonstrations::Export;
-use crate::app::jobs::JobView;
+use crate::app::model::{Export, JobView, PageQuery};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE, ETAG, HeaderValue, LOCATION};
 use axum::response::{IntoResponse, Response};

@@ -6,7 +6,8 @@
 //!   pages: the header is immune to both, because no page of another origin can set it.
 
 use super::problem::Problem;
-use crate::app::{Access, AppError, ErrorKind};
+use crate::app::Access;
+use crate::app::model::{AppError, ErrorKind};
 use axum::extract::{Request, State};
 use axum::http::header::{ACCEPT, AUTHORIZATION, CONTENT_TYPE, COOKIE, HOST, LOCATION, ORIGIN, SET_COOKIE};
 use axum::http::{HeaderMap, Method, StatusCode, Uri};

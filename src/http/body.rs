@@ -3,7 +3,7 @@
 //! A refused body is read on for a while and thrown away: a client that is still sending would otherwise see its
 //! connection break instead of the answer.
 
-use crate::app::{AppError, ErrorKind};
+use crate::app::model::{AppError, ErrorKind};
 use axum::body::{Body, BodyDataStream};
 use axum::extract::Request;
 use axum::http::HeaderMap;

@@ -4,11 +4,10 @@ use super::answer::{ExportParameters, PageParameters, file, tagged};
 use super::extract::{IfMatch, Json, Path, Query};
 use super::openapi::Binary;
 use super::problem::Problem;
-use crate::app::demonstrations::{
-    DemonstrationReport, DemonstrationView, PatchDemonstration, SamplesQuery, SamplesView,
+use crate::app::App;
+use crate::app::model::{
+    DemonstrationId, DemonstrationReport, DemonstrationView, Page, PatchDemonstration, SamplesQuery, SamplesView,
 };
-use crate::app::id::DemonstrationId;
-use crate::app::{App, Page};
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;

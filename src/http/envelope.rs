@@ -4,7 +4,7 @@
 
 use super::error::of_status;
 use super::problem::{CONTENT_TYPE_PROBLEM, Problem};
-use crate::app::AppError;
+use crate::app::model::AppError;
 use axum::extract::Request;
 use axum::http::header::{ALLOW, CONTENT_TYPE, HeaderName, HeaderValue};
 use axum::middleware::Next;

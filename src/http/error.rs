@@ -1,7 +1,7 @@
 //! What each kind of error is over HTTP: one exhaustive match.
 
 use super::problem::Problem;
-use crate::app::{AppError, ErrorKind};
+use crate::app::model::{AppError, ErrorKind};
 use axum::http::StatusCode;
 
 /// The status of an error kind.

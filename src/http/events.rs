@@ -9,9 +9,8 @@
 use super::error::status;
 use super::extract::{Path, Query};
 use super::problem::Problem;
-use crate::app::id::JobId;
-use crate::app::jobs::{EventData, JobEvent};
-use crate::app::{App, AppError, ErrorKind};
+use crate::app::App;
+use crate::app::model::{AppError, ErrorKind, EventData, JobEvent, JobId};
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
@@ -116,7 +115,7 @@ fn name(data: &EventData) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::Timestamp;
+    use crate::app::model::Timestamp;
     use crate::framework::job::State as JobState;
     use futures_util::stream;
 

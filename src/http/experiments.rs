@@ -4,10 +4,10 @@ use super::answer::{ExportParameters, PageParameters, accepted, file};
 use super::extract::{IdempotencyKey, Json, Path, Query};
 use super::openapi::Binary;
 use super::problem::Problem;
-use crate::app::experiments::{ExperimentComparison, ExperimentRequest, ExperimentTable, ExperimentView};
-use crate::app::id::ExperimentId;
-use crate::app::jobs::JobView;
-use crate::app::{App, Page, PageQuery};
+use crate::app::App;
+use crate::app::model::{
+    ExperimentComparison, ExperimentId, ExperimentRequest, ExperimentTable, ExperimentView, JobView, Page, PageQuery,
+};
 use crate::framework::experiment::{Quantity, RunRow};
 use axum::extract::State;
 use axum::response::Response;

@@ -2,7 +2,8 @@
 
 use super::problem::Problem;
 use super::{Settings, body, strict};
-use crate::app::{AppError, ErrorKind, shape};
+use crate::app::model::{AppError, ErrorKind};
+use crate::app::shape;
 use axum::extract::{FromRef, FromRequest, FromRequestParts, Request};
 use axum::http::header::{CONTENT_TYPE, IF_MATCH};
 use axum::http::request::Parts;

@@ -2,7 +2,8 @@
 
 use super::extract::Json;
 use super::problem::Problem;
-use crate::app::{App, AppError};
+use crate::app::App;
+use crate::app::model::AppError;
 use axum::extract::State;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};

@@ -3,9 +3,10 @@
 use super::answer::accepted;
 use super::extract::{IdempotencyKey, Json, Path, Query};
 use super::problem::Problem;
-use crate::app::id::JobId;
-use crate::app::jobs::{CreateJob, JobFilter, JobKind, JobView, Validation};
-use crate::app::{App, AppError, ErrorKind, Page, PageQuery};
+use crate::app::App;
+use crate::app::model::{
+    AppError, CreateJob, ErrorKind, JobFilter, JobId, JobKind, JobView, Page, PageQuery, Validation,
+};
 use crate::framework::job::State as JobState;
 use axum::extract::State;
 use axum::response::Response;

@@ -4,7 +4,7 @@
 //! - A handler or extractor returns a [`Problem`]; the envelope (`envelope.rs`) adds the request id and writes the body.
 //! - What failed underneath (`source`) is logged there, once, and never shown.
 
-use crate::app::{AppError, FieldError};
+use crate::app::model::{AppError, FieldError};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_TYPE, HeaderValue, RETRY_AFTER, WWW_AUTHENTICATE};
 use axum::response::{IntoResponse, Response};

@@ -3,7 +3,7 @@
 use super::extract::Json;
 use super::problem::Problem;
 use crate::app::App;
-use crate::app::recognitions::{RecognitionView, RecognizeRequest};
+use crate::app::model::{RecognitionView, RecognizeRequest};
 use axum::extract::State;
 
 /// Ranks actions by their discrepancy to an observation.

@@ -3,9 +3,8 @@
 use super::answer::{PageParameters, created};
 use super::extract::{Json, Path, Query};
 use super::problem::Problem;
-use crate::app::id::RobotId;
-use crate::app::robots::{CreateRobot, RobotView};
-use crate::app::{App, Page};
+use crate::app::App;
+use crate::app::model::{CreateRobot, Page, RobotId, RobotView};
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;

@@ -2,10 +2,10 @@
 
 use super::extract::{Json, Path, Query};
 use super::problem::Problem;
-use crate::app::id::{JobId, RunId};
-use crate::app::runs::{Convergence, RunFilter, RunGoals, RunTrials, RunView};
-use crate::app::trajectories::TrajectoryView;
-use crate::app::{App, Page, PageQuery};
+use crate::app::App;
+use crate::app::model::{
+    Convergence, JobId, Page, PageQuery, RunFilter, RunGoals, RunId, RunTrials, RunView, TrajectoryView,
+};
 use axum::extract::State;
 use serde::Deserialize;
 use utoipa::IntoParams;

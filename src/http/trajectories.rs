@@ -5,8 +5,7 @@ use super::extract::{Json, Path, Query};
 use super::openapi::Binary;
 use super::problem::Problem;
 use crate::app::App;
-use crate::app::id::TrajectoryId;
-use crate::app::trajectories::TrajectoryView;
+use crate::app::model::{TrajectoryId, TrajectoryView};
 use axum::extract::State;
 use axum::response::Response;
 

@@ -6,8 +6,10 @@ use super::answer::created;
 use super::extract::{Query, unsupported};
 use super::problem::Problem;
 use super::{Settings, body};
-use crate::app::demonstrations::{DemonstrationView, UploadDemonstration, UploadFile, UploadOptions};
-use crate::app::{App, AppError, ErrorKind, FieldError};
+use crate::app::App;
+use crate::app::model::{
+    AppError, DemonstrationView, ErrorKind, FieldError, UploadDemonstration, UploadFile, UploadOptions,
+};
 use crate::framework::Feature;
 use crate::framework::demonstration::ClockPolicy;
 use axum::extract::multipart::{Field, Multipart};

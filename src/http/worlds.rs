@@ -3,9 +3,8 @@
 use super::answer::{PageParameters, created};
 use super::extract::{Json, Path, Query};
 use super::problem::Problem;
-use crate::app::id::WorldId;
-use crate::app::worlds::{CreateWorld, WorldView};
-use crate::app::{App, Page};
+use crate::app::App;
+use crate::app::model::{CreateWorld, Page, WorldId, WorldView};
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;

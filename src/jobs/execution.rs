@@ -8,7 +8,7 @@
 use super::checkpoint::Checkpoint;
 use super::held::{Gone, Held};
 use super::outcome::{Marks, check_finite, distance, finished_run};
-use crate::app::jobs::{EventData, ExecutionWork, GoalProgress, JobProgress, JobView, TrialProgress};
+use crate::app::model::{EventData, ExecutionWork, GoalProgress, JobProgress, JobView, TrialProgress};
 use crate::app::ports::{Advance, NewRun, Transition};
 use crate::evaluate::{Pace, Simulation};
 use crate::framework::execution::{GoalResult, Problem, ProblemError, Progress};

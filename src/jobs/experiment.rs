@@ -7,9 +7,7 @@
 //! - Order of completion and number of threads cannot be seen: rows are kept by cell and repetition.
 
 use super::held::{Gone, Held};
-use crate::app::experiments::RowFilter;
-use crate::app::id::ExperimentId;
-use crate::app::jobs::{EventData, JobProgress, JobView};
+use crate::app::model::{EventData, ExperimentId, JobProgress, JobView, RowFilter};
 use crate::app::ports::{Advance, StoreError, Transition};
 use crate::framework::experiment::{Experiment, Plan, RunError, RunId, RunRow, run_while};
 use crate::framework::job::{Event, State};

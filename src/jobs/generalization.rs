@@ -1,10 +1,8 @@
 //! A generalization: demonstrations become an action. Short enough to need no checkpoint.
 
 use super::held::{Gone, Held};
-use crate::app::actions::{ActionGoals, ActionView};
 use crate::app::demonstrations::decode;
-use crate::app::id::ActionId;
-use crate::app::jobs::{GeneralizationRequest, JobProgress, JobView};
+use crate::app::model::{ActionGoals, ActionId, ActionView, GeneralizationRequest, JobProgress, JobView};
 use crate::app::ports::{Advance, StoreError, Transition};
 use crate::framework::demonstration::Demonstration;
 use crate::framework::generalization::{GeneralizeError, GeneralizeSpec, Generalized, generalize};

@@ -2,7 +2,7 @@
 
 use super::Settings;
 use crate::app::Ports;
-use crate::app::jobs::JobFailure;
+use crate::app::model::JobFailure;
 use crate::app::ports::{Advance, Claim, StoreError, Transition, Wake};
 use crate::framework::job::{Event, State};
 use tokio::task::JoinHandle;

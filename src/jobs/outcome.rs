@@ -1,11 +1,11 @@
 //! A finished repetition as it is stored: run, goals, convergence, trajectory.
 
-use crate::app::Timestamp;
-use crate::app::id::{JobId, RunId, TrajectoryId};
-use crate::app::jobs::ExecutionWork;
+use crate::app::model::{
+    ConvergencePoint, ExecutionWork, JobId, RunGoal, RunGoals, RunId, RunView, Timestamp, TrajectoryId,
+    TrajectoryPoint, TrajectoryView,
+};
 use crate::app::ports::{KeptTrials, NewRun};
-use crate::app::runs::{ConvergencePoint, RunGoal, RunGoals, RunView};
-use crate::app::trajectories::{TrajectoryPoint, TrajectoryView, digest, plan_through};
+use crate::app::trajectories::{digest, plan_through};
 use crate::evaluate::Simulation;
 use crate::framework::execution::{ProblemError, RunResult};
 use crate::framework::trajectory::CheckedTrajectory;

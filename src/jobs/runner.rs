@@ -3,7 +3,7 @@
 use super::held::{Gone, Held};
 use super::{execution, experiment, generalization};
 use crate::app::Ports;
-use crate::app::jobs::Work;
+use crate::app::model::Work;
 use crate::app::ports::{Claimed, StoreError, Wake};
 use std::time::Duration;
 use tokio::sync::broadcast::{Receiver, error::RecvError};

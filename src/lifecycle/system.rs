@@ -1,6 +1,6 @@
 //! The machine's clock and random source behind the ports.
 
-use crate::app::Timestamp;
+use crate::app::model::Timestamp;
 use crate::app::ports::{Clock, Ids, SEED_BOUND};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use uuid::Uuid;

@@ -1,18 +1,15 @@
 //! What every engine behind the Store port must do; each function is one promise, run on a fresh store.
 
-use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
-use crate::app::experiments::{ExperimentView, RowFilter};
-use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, WorldId};
-use crate::app::jobs::{
-    CreateJob, EventData, GeneralizationRequest, JobFilter, JobKind, JobProgress, JobResult, JobView, Work,
+use crate::app::model::{
+    ActionId, CreateJob, DemonstrationId, DemonstrationReport, DemonstrationView, EventData, ExperimentId,
+    ExperimentView, GeneralizationRequest, JobFilter, JobId, JobKind, JobProgress, JobResult, JobView, Keyset,
+    PageQuery, PatchDemonstration, RobotId, RobotView, RowFilter, RunFilter, RunGoals, RunId, RunView, Timestamp, Work,
+    WorldId,
 };
 use crate::app::ports::{
     Advance, Claimed, IdempotencyKey, KeptTrials, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Store,
     StoreError, Submitted, Transition, Usage,
 };
-use crate::app::robots::RobotView;
-use crate::app::runs::{RunFilter, RunGoals, RunView};
-use crate::app::{Keyset, PageQuery, Timestamp};
 use crate::framework::experiment::{Plan, RunId as Which, RunRow};
 use crate::framework::generalization::Weighting;
 use crate::framework::job::{Event, State};

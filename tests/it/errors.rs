@@ -3,7 +3,7 @@
 use super::clients::{Grpc, Http, send};
 use super::server::Server;
 use super::work::{upload, world};
-use cgda::app::ErrorKind;
+use cgda::app::model::ErrorKind;
 use cgda::grpc::proto;
 use reqwest::Method;
 use serde_json::json;

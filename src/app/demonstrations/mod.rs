@@ -2,17 +2,15 @@
 
 mod codec;
 mod series;
-mod types;
 
 pub use codec::{CodecError, decode, encode};
-pub use types::{
-    DemonstrationReport, DemonstrationView, Export, PatchDemonstration, SamplesQuery, SamplesView, Series, StreamView,
-    UploadDemonstration, UploadFile, UploadOptions,
-};
 
-use crate::app::id::DemonstrationId;
+use crate::app::model::{
+    AppError, DemonstrationId, DemonstrationReport, DemonstrationView, ErrorKind, Export, FieldError, Keyset, Page,
+    PageQuery, PatchDemonstration, SamplesQuery, SamplesView, StreamView, UploadDemonstration,
+};
 use crate::app::ports::NewDemonstration;
-use crate::app::{App, AppError, ErrorKind, FieldError, Keyset, Page, PageQuery, check_name, compute, unknown_format};
+use crate::app::{App, check_name, compute, unknown_format};
 use crate::framework::demonstration::{
     Demonstration, Finding, FindingCode, ReadResult, SourceFile, content_hash, read_files,
 };
@@ -196,7 +194,7 @@ fn view(
     demonstration: &Demonstration,
     sha256: String,
     findings: usize,
-    created_at: crate::app::Timestamp,
+    created_at: crate::app::model::Timestamp,
 ) -> DemonstrationView {
     let streams = demonstration.streams.iter().map(|stream| StreamView {
         name: stream.name().to_owned(),

@@ -1,7 +1,7 @@
 //! Samples for a plot: a window of time, thinned so that no peak is lost.
 
-use super::types::{SamplesQuery, Series};
-use crate::app::{AppError, out_of_bounds};
+use crate::app::model::{AppError, SamplesQuery, Series};
+use crate::app::out_of_bounds;
 use crate::framework::demonstration::{Demonstration, Stream};
 
 const DEFAULT_POINTS: u32 = 1000;

@@ -5,16 +5,12 @@
 //!   row a finished run. Every table, comparison and file is computed from these, so it can never be stale.
 
 mod plan;
-mod types;
 
-pub use types::{
-    EveryTable, ExperimentComparison, ExperimentRequest, ExperimentTable, ExperimentView, PaperTable, RowFilter,
+use crate::app::model::{
+    AppError, CreateJob, ErrorKind, ExperimentComparison, ExperimentId, ExperimentRequest, ExperimentTable,
+    ExperimentView, Export, JobView, Keyset, Page, PageQuery, RowFilter,
 };
-
-use crate::app::demonstrations::Export;
-use crate::app::id::ExperimentId;
-use crate::app::jobs::{CreateJob, JobView};
-use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, compute, out_of_bounds, unknown_format};
+use crate::app::{App, compute, out_of_bounds, unknown_format};
 use crate::framework::experiment::{Experiment, Quantity, RunId, RunRow, export};
 
 impl App {

@@ -1,9 +1,9 @@
 //! From a request to a plan: the paper's cells and presets are looked up, what was left open is filled in, and each
 //! cell's problem is checked as a run of it would check it.
 
-use super::{EveryTable, ExperimentRequest, PaperTable};
+use crate::app::model::{AppError, EveryTable, ExperimentRequest, FieldError, PaperTable};
 use crate::app::ports::SEED_BOUND;
-use crate::app::{App, AppError, FieldError, chain_text, check_name, compute};
+use crate::app::{App, chain_text, check_name, compute};
 use crate::framework::execution::Iet;
 use crate::framework::experiment::paper::PaperTables;
 use crate::framework::experiment::{ExperimentSpec, MatrixSpec, Plan};

@@ -5,11 +5,9 @@
 //! one world without memory, one list of features, and one reality. A simulated reality that draws its robot is the
 //! same one only with the same seed, which each repetition has for itself unless `reality.seed` is given.
 
-use super::resolve::missing;
-use super::{EarlierRun, ExecutionRequest};
-use crate::app::robots::RobotView;
-use crate::app::runs::RunView;
-use crate::app::{App, AppError, FieldError};
+use super::reference::missing;
+use crate::app::App;
+use crate::app::model::{AppError, EarlierRun, ExecutionRequest, FieldError, RobotView, RunView};
 use crate::framework::execution::Problem;
 use crate::framework::optimizer::MethodSpec;
 use crate::framework::whole_run::Trial;
@@ -124,8 +122,7 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::Timestamp;
-    use crate::app::id::RobotId;
+    use crate::app::model::{RobotId, Timestamp};
     use crate::framework::preset::shipped;
     use crate::framework::robot::{Chain, RobotModel, summarize, summarize_chain};
     use crate::framework::world::RealitySpec;

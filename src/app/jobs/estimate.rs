@@ -1,9 +1,9 @@
 //! What a job will cost: first repetitions are run for a short while, and what they took is scaled up.
 
-use super::resolve::Resolved;
-use super::{CostEstimate, Work};
+use super::resolved::Resolved;
+use crate::app::chain_text;
+use crate::app::model::{AppError, CostEstimate, Work};
 use crate::app::ports::Clock;
-use crate::app::{AppError, chain_text};
 use crate::framework::execution::{Preview, Problem, in_words};
 use std::time::Duration;
 

@@ -2,23 +2,19 @@
 
 mod earlier;
 mod estimate;
+mod reference;
 mod resolve;
-mod types;
+mod resolved;
 mod watch;
-mod work;
 
-pub use types::{
-    CostEstimate, CreateJob, EarlierRun, EventData, EventPage, ExecutionRequest, GeneralizationRequest, GoalProgress,
-    JobEvent, JobFailure, JobFilter, JobKind, JobProgress, JobResult, JobView, TrialProgress, Validation,
+use crate::app::model::{
+    AppError, CreateJob, ErrorKind, EventPage, ExperimentView, JobFilter, JobId, JobResult, JobView, Keyset, Page,
+    PageQuery, Work,
 };
-pub use work::{ExecutionWork, Work};
-
-use crate::app::experiments::ExperimentView;
-use crate::app::id::JobId;
 use crate::app::ports::{IdempotencyKey, NewExperiment, NewJob, Submitted, Transition, Wake};
-use crate::app::{App, AppError, ErrorKind, Keyset, Page, PageQuery, out_of_bounds};
+use crate::app::{App, out_of_bounds};
 use crate::framework::job::{Event, State};
-use resolve::Resolved;
+use resolved::Resolved;
 use sha2::{Digest as _, Sha256};
 
 /// Most events of one answer.

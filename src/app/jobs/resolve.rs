@@ -3,12 +3,14 @@
 
 use super::earlier::setting;
 use super::estimate::estimate;
-use super::{
-    CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, GeneralizationRequest, JobProgress, Validation, Work,
+use super::reference::{look_up, missing};
+use super::resolved::Resolved;
+use crate::app::model::{
+    AppError, CostEstimate, CreateJob, ErrorKind, ExecutionRequest, ExecutionWork, ExperimentId, FieldError,
+    GeneralizationRequest, JobProgress, Validation, Work,
 };
-use crate::app::id::ExperimentId;
-use crate::app::ports::{SEED_BOUND, StoreError, Usage};
-use crate::app::{App, AppError, ErrorKind, FieldError, chain_text, check_name, compute};
+use crate::app::ports::SEED_BOUND;
+use crate::app::{App, chain_text, check_name, compute};
 use crate::framework::execution::{Chosen, Iet, Problem, ROBOT_TRIAL_S};
 use crate::framework::experiment::Plan;
 use crate::framework::generalization::Goals;
@@ -21,42 +23,6 @@ const MAX_REPETITIONS: u32 = 1000;
 const MAX_TRIAL_S: f64 = 86_400.0;
 /// Most demonstrations of one action.
 const MAX_DEMONSTRATIONS: usize = 1000;
-
-/// A job that can be submitted.
-pub(super) struct Resolved {
-    pub name: String,
-    pub request: CreateJob,
-    pub work: Work,
-    pub uses: Usage,
-    pub progress: JobProgress,
-    /// The experiment to keep with it.
-    pub experiment: Option<(ExperimentId, Plan)>,
-}
-
-impl Resolved {
-    fn new(name: String, request: CreateJob, work: Work) -> Self {
-        let (uses, progress) = match &work {
-            Work::Generalization(_) | Work::Experiment { .. } => {
-                (Usage::default(), JobProgress { repetitions: 1, ..JobProgress::default() })
-            }
-            Work::Execution(work) => {
-                let uses = Usage {
-                    action: Some(work.action.clone()),
-                    robot: Some(work.robot.clone()),
-                    world: Some(work.world.clone()),
-                };
-                let goals = u32::try_from(work.problem.goals.len()).unwrap_or(u32::MAX);
-                (uses, JobProgress { repetitions: work.repetitions, goals, ..JobProgress::default() })
-            }
-        };
-        Self { name, request, work, uses, progress, experiment: None }
-    }
-
-    /// What was resolved before.
-    pub(super) fn again(name: String, request: CreateJob, work: Work) -> Self {
-        Self::new(name, request, work)
-    }
-}
 
 impl App {
     /// Checks a job as [`App::create_job`] would, creates nothing and estimates its cost; a trial on a robot is taken to
@@ -219,26 +185,4 @@ fn bounds(request: &ExecutionRequest) -> Vec<FieldError> {
         errors.extend(error.details);
     }
     errors
-}
-
-fn look_up<T>(
-    errors: &mut Vec<FieldError>,
-    pointer: &str,
-    found: Result<T, StoreError>,
-) -> Result<Option<T>, AppError> {
-    match found {
-        Ok(value) => Ok(Some(value)),
-        Err(error) => {
-            errors.push(missing(pointer, error)?);
-            Ok(None)
-        }
-    }
-}
-
-/// A reference to nothing is a wrong place of the request; every other error is one.
-pub(super) fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, AppError> {
-    match error {
-        StoreError::NotFound { .. } => Ok(FieldError::new(pointer, "not_found", error.to_string())),
-        error => Err(error.into()),
-    }
 }

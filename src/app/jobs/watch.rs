@@ -2,10 +2,10 @@
 //!
 //! A follower reads the store in pages and is woken by hints; it holds at most one page, however slow its reader is.
 
-use super::{EventData, JobEvent, JobView, MAX_EVENTS};
-use crate::app::id::JobId;
+use super::MAX_EVENTS;
+use crate::app::App;
+use crate::app::model::{AppError, EventData, JobEvent, JobId, JobView};
 use crate::app::ports::Wake;
-use crate::app::{App, AppError};
 use futures_util::StreamExt as _;
 use futures_util::stream::{self, BoxStream};
 use std::collections::VecDeque;

@@ -1,6 +1,6 @@
 //! Time.
 
-use crate::app::Timestamp;
+use crate::app::model::Timestamp;
 use std::time::Duration;
 
 /// Time of the day, for showing, and time that passes, for measuring; no lease and no deadline depends on the former.

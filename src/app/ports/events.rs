@@ -1,6 +1,6 @@
 //! Wake-ups: a hint that something was committed. Whoever is woken reads the store; a lost hint delays, never loses.
 
-use crate::app::id::JobId;
+use crate::app::model::JobId;
 use tokio::sync::broadcast;
 
 /// What happened.

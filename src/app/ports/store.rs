@@ -7,16 +7,12 @@
 //!   [`StoreError::LeaseLost`] and nothing is written.
 //! - Events of a job are numbered from 1 without gaps; each is written together with what it tells.
 
-use crate::app::actions::{ActionGoals, ActionView};
-use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
-use crate::app::experiments::{ExperimentView, RowFilter};
-use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
-use crate::app::jobs::{EventData, EventPage, JobFailure, JobFilter, JobProgress, JobView, Work};
-use crate::app::robots::RobotView;
-use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
-use crate::app::trajectories::TrajectoryView;
-use crate::app::worlds::WorldView;
-use crate::app::{AppError, ErrorKind, Keyset, Timestamp};
+use crate::app::model::{
+    ActionGoals, ActionId, ActionView, AppError, ConvergencePoint, DemonstrationId, DemonstrationReport,
+    DemonstrationView, ErrorKind, EventData, EventPage, ExperimentId, ExperimentView, JobFailure, JobFilter, JobId,
+    JobProgress, JobView, Keyset, PatchDemonstration, RobotId, RobotView, RowFilter, RunFilter, RunGoals, RunId,
+    RunView, Timestamp, TrajectoryId, TrajectoryView, Work, WorldId, WorldView,
+};
 use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::{Event, InvalidTransition, State};
 use crate::framework::whole_run::Trial;

@@ -1,12 +1,12 @@
 //! What `--demo` fills an empty database with: everything goes through the service as a user would do it, so that what
 //! is shown was really computed.
 
-use crate::app::demonstrations::{UploadDemonstration, UploadFile, UploadOptions};
-use crate::app::id::{ActionId, DemonstrationId, JobId, RobotId, WorldId};
-use crate::app::jobs::{CreateJob, ExecutionRequest, GeneralizationRequest, JobFilter};
-use crate::app::robots::CreateRobot;
-use crate::app::worlds::CreateWorld;
-use crate::app::{App, AppError, ErrorKind, PageQuery};
+use crate::app::App;
+use crate::app::model::{
+    ActionId, AppError, CreateJob, CreateRobot, CreateWorld, DemonstrationId, ErrorKind, ExecutionRequest,
+    GeneralizationRequest, JobFilter, JobId, PageQuery, RobotId, UploadDemonstration, UploadFile, UploadOptions,
+    WorldId,
+};
 use crate::framework::generalization::Weighting;
 use crate::framework::preset::{self, Preset};
 use crate::framework::recognition::Metric;

@@ -1,7 +1,7 @@
 //! Actions.
 
 use super::all;
-use crate::app::actions::{ActionGoals, ActionView};
+use crate::app::model::{ActionGoals, ActionView};
 use crate::grpc::proto;
 
 impl From<ActionView> for proto::Action {

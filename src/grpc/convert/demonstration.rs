@@ -1,8 +1,8 @@
 //! Demonstrations.
 
 use super::{all, text};
-use crate::app::AppError;
-use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, StreamView, UploadOptions, pointer};
+use crate::app::demonstrations::pointer;
+use crate::app::model::{AppError, DemonstrationReport, DemonstrationView, StreamView, UploadOptions};
 use crate::framework::Feature;
 use crate::framework::demonstration::Finding;
 use crate::grpc::proto;

@@ -1,6 +1,6 @@
 //! Events of jobs.
 
-use crate::app::jobs::{EventData, JobEvent};
+use crate::app::model::{EventData, JobEvent};
 use crate::grpc::proto;
 use proto::job_event::Data;
 

@@ -1,10 +1,10 @@
 //! Jobs and how far they are.
 
 use super::all;
-use crate::app::jobs::{
-    CostEstimate, GoalProgress, JobFailure, JobKind, JobProgress, JobResult, JobView, TrialProgress, Validation,
+use crate::app::model::{
+    AppError, CostEstimate, ErrorKind, GoalProgress, JobFailure, JobKind, JobProgress, JobResult, JobView,
+    TrialProgress, Validation,
 };
-use crate::app::{AppError, ErrorKind};
 use crate::framework::job::State;
 use crate::grpc::proto;
 use proto::JobState;

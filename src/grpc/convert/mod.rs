@@ -16,8 +16,7 @@ pub mod work;
 pub mod world;
 
 use super::proto;
-use crate::app::id::IdError;
-use crate::app::{AppError, ErrorKind, FieldError, Page, PageQuery};
+use crate::app::model::{AppError, ErrorKind, FieldError, IdError, Page, PageQuery};
 use crate::framework::Feature;
 use crate::framework::recognition::Metric;
 use std::str::FromStr;
@@ -149,7 +148,7 @@ pub fn all<T, M: From<T>>(values: Vec<T>) -> Vec<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::id::JobId;
+    use crate::app::model::JobId;
 
     #[test]
     fn what_json_could_not_hold_is_refused_at_its_pointer() {

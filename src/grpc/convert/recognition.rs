@@ -1,9 +1,8 @@
 //! Recognition.
 
 use super::{all, finite_or_none, metric, reference, references, required, rows};
-use crate::app::AppError;
-use crate::app::recognitions::{
-    IncomparableCandidate, Observed, RecognitionCandidate, RecognitionView, RecognizeRequest,
+use crate::app::model::{
+    AppError, IncomparableCandidate, Observed, RecognitionCandidate, RecognitionView, RecognizeRequest,
 };
 use crate::framework::recognition::FeatureDiscrepancy;
 use crate::grpc::proto;

@@ -1,8 +1,7 @@
 //! Robots.
 
 use super::{all, finite, list, triple};
-use crate::app::AppError;
-use crate::app::robots::{CreateRobot, RobotView};
+use crate::app::model::{AppError, CreateRobot, RobotView};
 use crate::framework::robot::{ChainSummary, Gene, RobotSpec};
 use crate::grpc::proto;
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 //! Runs.
 
 use super::all;
-use crate::app::runs::{RunGoal, RunGoals, RunTrials, RunView};
+use crate::app::model::{RunGoal, RunGoals, RunTrials, RunView};
 use crate::framework::optimizer::StopReason;
 use crate::grpc::proto;
 

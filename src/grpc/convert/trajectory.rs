@@ -1,6 +1,6 @@
 //! Trajectories.
 
-use crate::app::trajectories::{TrajectoryPoint, TrajectoryView};
+use crate::app::model::{TrajectoryPoint, TrajectoryView};
 use crate::framework::trajectory::{LimitKind, Tightest};
 use crate::grpc::proto;
 

@@ -1,8 +1,8 @@
 //! What a job does: the request, in and out.
 
 use super::{finite, finite_or_none, list, metric, reference, references, required, text};
-use crate::app::jobs::{CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
-use crate::app::{AppError, shape};
+use crate::app::model::{AppError, CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
+use crate::app::shape;
 use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::execution::{Chosen, ExecutionSpec};
 use crate::framework::generalization::Weighting;
@@ -231,7 +231,7 @@ impl From<ExecutionSpec> for proto::ExecutionSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::ErrorKind;
+    use crate::app::model::ErrorKind;
 
     fn request(json: serde_json::Value) -> CreateJob {
         serde_json::from_value(json).unwrap()

@@ -1,8 +1,7 @@
 //! Worlds.
 
 use super::{all, finite, required, triple};
-use crate::app::AppError;
-use crate::app::worlds::{CreateWorld, WorldView};
+use crate::app::model::{AppError, CreateWorld, WorldView};
 use crate::framework::world::{CoverageSpec, SurfaceView, ToolPositionSpec, WorldSpec};
 use crate::grpc::proto;
 use proto::world_spec::Kind;

@@ -3,9 +3,7 @@
 use super::rows::{checked, digest, json, number, one, page, value};
 use super::statements::statements;
 use super::{SqliteStore, engine_error};
-use crate::app::Keyset;
-use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
-use crate::app::id::DemonstrationId;
+use crate::app::model::{DemonstrationId, DemonstrationReport, DemonstrationView, Keyset, PatchDemonstration};
 use crate::app::ports::{NewDemonstration, StoreError};
 use sqlx::sqlite::SqliteConnection;
 

@@ -3,9 +3,7 @@
 use super::rows::{json, one, value};
 use super::statements::statements;
 use super::{SqliteStore, engine_error};
-use crate::app::Keyset;
-use crate::app::experiments::{ExperimentView, RowFilter};
-use crate::app::id::{ExperimentId, JobId};
+use crate::app::model::{ExperimentId, ExperimentView, JobId, Keyset, RowFilter};
 use crate::app::ports::{NewExperiment, StoreError};
 use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::State;

@@ -3,10 +3,10 @@
 use super::rows::{count, json, number, value};
 use super::statements::statements;
 use super::{SqliteStore, engine_error};
-use crate::app::id::JobId;
-use crate::app::jobs::{EventData, EventPage, JobEvent, JobFilter, JobKind, JobResult, JobView, Work};
+use crate::app::model::{
+    EventData, EventPage, JobEvent, JobFilter, JobId, JobKind, JobResult, JobView, Keyset, Timestamp, Work,
+};
 use crate::app::ports::{IdempotencyKey, NewJob, StoreError, Submitted, Transition};
-use crate::app::{Keyset, Timestamp};
 use crate::framework::job::State;
 use sqlx::sqlite::{SqliteConnection, SqlitePool};
 

@@ -16,20 +16,15 @@ mod writer;
 
 pub use open::OpenError;
 
-use crate::app::actions::{ActionGoals, ActionView};
-use crate::app::demonstrations::{DemonstrationReport, DemonstrationView, PatchDemonstration};
-use crate::app::experiments::{ExperimentView, RowFilter};
-use crate::app::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, TrajectoryId, WorldId};
-use crate::app::jobs::{EventPage, JobFilter, JobView, Work};
+use crate::app::model::{
+    ActionGoals, ActionId, ActionView, ConvergencePoint, DemonstrationId, DemonstrationReport, DemonstrationView,
+    EventPage, ExperimentId, ExperimentView, JobFilter, JobId, JobView, Keyset, PatchDemonstration, RobotId, RobotView,
+    RowFilter, RunFilter, RunGoals, RunId, RunView, Timestamp, TrajectoryId, TrajectoryView, Work, WorldId, WorldView,
+};
 use crate::app::ports::{
     Advance, Claim, Claimed, IdempotencyKey, KeptTrials, NewDemonstration, NewJob, NewRobot, Store, StoreError,
     Submitted, Transition,
 };
-use crate::app::robots::RobotView;
-use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
-use crate::app::trajectories::TrajectoryView;
-use crate::app::worlds::WorldView;
-use crate::app::{Keyset, Timestamp};
 use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::State;
 use crate::framework::whole_run::Trial;

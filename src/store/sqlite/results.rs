@@ -3,11 +3,10 @@
 use super::rows::{json, number, one, page, value};
 use super::statements::statements;
 use super::{SqliteStore, engine_error};
-use crate::app::Keyset;
-use crate::app::actions::{ActionGoals, ActionView};
+use crate::app::model::{
+    ActionGoals, ActionView, ConvergencePoint, Keyset, RunFilter, RunGoals, RunView, TrajectoryView,
+};
 use crate::app::ports::{NewRun, StoreError};
-use crate::app::runs::{ConvergencePoint, RunFilter, RunGoals, RunView};
-use crate::app::trajectories::TrajectoryView;
 use sqlx::sqlite::SqliteConnection;
 
 statements! {

@@ -3,10 +3,8 @@
 use super::rows::{count, json, one, page, text};
 use super::statements::statements;
 use super::{SqliteStore, engine_error};
-use crate::app::Keyset;
+use crate::app::model::{Keyset, RobotView, WorldView};
 use crate::app::ports::{NewRobot, StoreError};
-use crate::app::robots::RobotView;
-use crate::app::worlds::WorldView;
 
 statements! {
     NEXT_VERSION = "SELECT coalesce(max(version), 0) + 1 FROM robots WHERE name = ?1";

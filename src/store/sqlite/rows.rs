@@ -1,7 +1,7 @@
 //! Reading rows: JSON columns into what they hold, one at a time or by page.
 
 use super::engine_error;
-use crate::app::Keyset;
+use crate::app::model::Keyset;
 use crate::app::ports::StoreError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;

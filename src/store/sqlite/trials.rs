@@ -3,8 +3,8 @@
 use super::rows::{json, value};
 use super::statements::statements;
 use super::{SqliteStore, engine_error};
+use crate::app::model::RunView;
 use crate::app::ports::{KeptTrials, NewRun, StoreError};
-use crate::app::runs::RunView;
 use crate::framework::whole_run::Trial;
 use sqlx::sqlite::SqliteConnection;
 

@@ -1,6 +1,6 @@
 //! Keyset paging: a page ends with an opaque token that names the last item seen and the query it belongs to.
 
-use crate::app::{AppError, ErrorKind};
+use super::error::{AppError, ErrorKind};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use utoipa::ToSchema;

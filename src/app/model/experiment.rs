@@ -1,7 +1,7 @@
 //! Requests for experiments, and what is shown of them.
 
-use crate::app::Timestamp;
-use crate::app::id::{ExperimentId, JobId};
+use super::id::{ExperimentId, JobId};
+use super::time::Timestamp;
 use crate::framework::experiment::{CellResult, CellSpec, MatrixSpec, PairedComparison, Quantity, RunId};
 use crate::framework::job::State;
 use serde::{Deserialize, Serialize};

@@ -15,8 +15,7 @@ pub(super) fn numbers<'de, D: Deserializer<'de>>(json: D) -> Result<Vec<f64>, D:
 
 #[cfg(test)]
 mod tests {
-    use crate::app::jobs::{EventData, GoalProgress};
-    use crate::app::runs::ConvergencePoint;
+    use super::super::{ConvergencePoint, EventData, GoalProgress};
     use serde_json::json;
 
     #[test]

@@ -1,7 +1,8 @@
 //! All a job needs, resolved when it was submitted.
 
-use crate::app::id::{ActionId, DemonstrationId, ExperimentId, RobotId, WorldId};
-use crate::app::jobs::{GeneralizationRequest, JobKind};
+use super::id::{ActionId, DemonstrationId, ExperimentId, RobotId, WorldId};
+use super::job::JobKind;
+use super::job_request::GeneralizationRequest;
 use crate::framework::execution::Problem;
 use serde::{Deserialize, Serialize};
 

@@ -1,0 +1,27 @@
+//! References of a request: one to nothing is a wrong place of the request.
+
+use crate::app::model::{AppError, FieldError};
+use crate::app::ports::StoreError;
+
+/// What was found; a reference to nothing becomes one of `errors`.
+pub(super) fn look_up<T>(
+    errors: &mut Vec<FieldError>,
+    pointer: &str,
+    found: Result<T, StoreError>,
+) -> Result<Option<T>, AppError> {
+    match found {
+        Ok(value) => Ok(Some(value)),
+        Err(error) => {
+            errors.push(missing(pointer, error)?);
+            Ok(None)
+        }
+    }
+}
+
+/// A reference to nothing is a wrong place of the request; every other error is one.
+pub(super) fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, AppError> {
+    match error {
+        StoreError::NotFound { .. } => Ok(FieldError::new(pointer, "not_found", error.to_string())),
+        error => Err(error.into()),
+    }
+}

@@ -1,0 +1,98 @@
+//! Jobs, as they are shown.
+
+use super::id::{ActionId, ExperimentId, JobId, RunId};
+use super::job_progress::JobProgress;
+use super::job_request::CreateJob;
+use super::time::Timestamp;
+use crate::framework::job::State;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// What a job does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JobKind {
+    /// Makes an action of demonstrations.
+    Generalization,
+    /// Finds the joint trajectory with which a robot produces an action's effects.
+    Execution,
+    /// Runs many settings many times and compares them.
+    Experiment,
+}
+
+impl JobKind {
+    /// The name in JSON and in the store.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Generalization => "generalization",
+            Self::Execution => "execution",
+            Self::Experiment => "experiment",
+        }
+    }
+}
+
+/// A job as it stands.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct JobView {
+    /// Its id.
+    pub id: JobId,
+    /// What it does.
+    pub kind: JobKind,
+    /// Display name.
+    pub name: String,
+    /// Where it stands.
+    pub state: State,
+    /// Why, where there is more to say than the state.
+    pub state_reason: Option<String>,
+    /// Since when.
+    pub state_since: Timestamp,
+    /// How often a worker claimed it.
+    pub attempt: u32,
+    /// How far it is.
+    pub progress: JobProgress,
+    /// The request, with what was left open filled in.
+    pub request: CreateJob,
+    /// What it made so far.
+    pub result: JobResult,
+    /// Why it failed.
+    pub failure: Option<JobFailure>,
+    /// Sequence number of its last event.
+    pub last_seq: u64,
+    /// When it was submitted.
+    pub created_at: Timestamp,
+    /// When a worker first started it.
+    pub started_at: Option<Timestamp>,
+    /// When it ended.
+    pub finished_at: Option<Timestamp>,
+}
+
+/// What a job made.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct JobResult {
+    /// The action, of a generalization.
+    pub action: Option<ActionId>,
+    /// The runs, of an execution, in the order of repetitions.
+    pub runs: Vec<RunId>,
+    /// The experiment, from its submission on.
+    #[serde(default)]
+    pub experiment: Option<ExperimentId>,
+}
+
+/// Why a job failed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct JobFailure {
+    /// Stable code.
+    pub code: String,
+    /// What happened, with the numbers.
+    pub message: String,
+}
+
+/// Which jobs.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct JobFilter {
+    /// In one of these states; any when empty.
+    pub states: Vec<State>,
+    /// Of this kind.
+    pub kind: Option<JobKind>,
+}

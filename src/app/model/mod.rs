@@ -1,0 +1,52 @@
+//! The vocabulary of the service: ids, pages, times, errors, and what each resource is asked for and shown as.
+//!
+//! # Architecture Invariants
+//! - The ground floor of `app`: imports the framework only. Ports import the model, use-cases import both.
+//! - The request and view types are the REST bodies.
+
+mod action;
+mod demonstration;
+mod error;
+mod experiment;
+mod export;
+mod id;
+mod job;
+mod job_cost;
+mod job_event;
+mod job_progress;
+mod job_request;
+mod null_as_infinite;
+mod page;
+mod recognition;
+mod robot;
+mod run;
+mod samples;
+mod time;
+mod trajectory;
+mod upload;
+mod work;
+mod world;
+
+pub use action::{ActionGoals, ActionView, Interpolation};
+pub use demonstration::{DemonstrationReport, DemonstrationView, PatchDemonstration, StreamView};
+pub use error::{AppError, ErrorKind, FieldError};
+pub use experiment::{
+    EveryTable, ExperimentComparison, ExperimentRequest, ExperimentTable, ExperimentView, PaperTable, RowFilter,
+};
+pub use export::Export;
+pub use id::{ActionId, DemonstrationId, ExperimentId, IdError, JobId, RobotId, RunId, TrajectoryId, WorldId};
+pub use job::{JobFailure, JobFilter, JobKind, JobResult, JobView};
+pub use job_cost::{CostEstimate, Validation};
+pub use job_event::{EventData, EventPage, JobEvent};
+pub use job_progress::{GoalProgress, JobProgress, TrialProgress};
+pub use job_request::{CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
+pub use page::{DEFAULT_PAGE_SIZE, Keyset, MAX_PAGE_SIZE, Page, PageQuery};
+pub use recognition::{IncomparableCandidate, Observed, RecognitionCandidate, RecognitionView, RecognizeRequest};
+pub use robot::{CreateRobot, RobotView};
+pub use run::{Convergence, ConvergencePoint, RunFilter, RunGoal, RunGoals, RunTrials, RunView};
+pub use samples::{SamplesQuery, SamplesView, Series};
+pub use time::Timestamp;
+pub use trajectory::{TrajectoryPoint, TrajectoryView};
+pub use upload::{UploadDemonstration, UploadFile, UploadOptions};
+pub use work::{ExecutionWork, Work};
+pub use world::{CreateWorld, WorldView};

@@ -1,0 +1,52 @@
+//! Trajectories, as they are shown.
+
+use super::id::{JobId, RobotId, RunId, TrajectoryId};
+use super::time::Timestamp;
+use crate::framework::trajectory::Tightest;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use utoipa::ToSchema;
+
+/// A time-parameterised joint trajectory that passed its check.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct TrajectoryView {
+    /// Its id.
+    pub id: TrajectoryId,
+    /// The run it was made of.
+    pub run: RunId,
+    /// The job.
+    pub job: JobId,
+    /// The robot it fits.
+    pub robot: RobotId,
+    /// Free joints, in the order of `positions`.
+    pub joint_names: Vec<String>,
+    /// Joints of the chain that hold one value throughout, rad or m.
+    pub fixed_joints: BTreeMap<String, f64>,
+    /// Duration, seconds.
+    pub duration_s: f64,
+    /// Points; the first at 0 s.
+    pub points: Vec<TrajectoryPoint>,
+    /// Times at which the goals are reached, seconds.
+    pub goal_times_s: Vec<f64>,
+    /// The most used limit of each kind.
+    pub tightest: Vec<Tightest>,
+    /// What was assumed in planning.
+    pub notes: Vec<String>,
+    /// SHA-256 of the points' bits, hexadecimal.
+    pub sha256: String,
+    /// When it was made.
+    pub created_at: Timestamp,
+}
+
+/// One point of a trajectory.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct TrajectoryPoint {
+    /// Time from the start, seconds.
+    pub t_s: f64,
+    /// rad or m.
+    pub positions: Vec<f64>,
+    /// rad/s or m/s.
+    pub velocities: Vec<f64>,
+    /// rad/s^2 or m/s^2.
+    pub accelerations: Vec<f64>,
+}
