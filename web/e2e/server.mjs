@@ -46,7 +46,7 @@ export async function startServer(options = {}) {
 
 function openingAddress(child, log) {
   return new Promise((resolve, reject) => {
-    const timer = setTimeout(() => reject(new Error(`no address within 30 s:\n${log.join("")}`)), 30_000);
+    const timer = setTimeout(() => reject(new Error(`no address within 60 s:\n${log.join("")}`)), 60_000);
     createInterface({ input: child.stdout }).on("line", (line) => {
       const found = /https?:\/\/\S+[?&]token=\S+/.exec(line);
       if (found === null) return;

@@ -15,7 +15,7 @@ import { NewJobPage } from "../pages/jobs/NewJobPage";
 import { RobotPage } from "../pages/robots/RobotPage";
 import { RobotsPage } from "../pages/robots/RobotsPage";
 import { RunPage } from "../pages/runs/RunPage";
-import { ErrorBoundary } from "./ErrorBoundary";
+import { ErrorBoundary } from "../ui/ErrorBoundary";
 import { Layout } from "./Layout";
 import { NotFound } from "./NotFound";
 import { SignedOut } from "./SignedOut";
@@ -37,7 +37,7 @@ export function App() {
     <QueryClientProvider client={queries}>
       <BrowserRouter>
         <Layout>
-          <ErrorBoundary>
+          <ErrorBoundary title="This page crashed">
             <Pages />
           </ErrorBoundary>
         </Layout>

@@ -6,7 +6,8 @@ import type { JobEvent } from "../api/types";
 import { isFinal } from "../lib/states";
 import { INITIAL, applyEvents, type LiveJob } from "./jobLive";
 import type { ServerEvent } from "./sse";
-import { useEventStream, type StreamHealth } from "./useEventStream";
+import type { StreamHealth } from "./eventStream";
+import { useEventStream } from "./useEventStream";
 
 const RESYNC = "resync";
 

@@ -1,6 +1,6 @@
 // Badge for the age of the displayed data: "live", or "data is N s old" once the stream stalls.
 
-import type { StreamHealth } from "../live/useEventStream";
+import type { StreamHealth } from "../live/eventStream";
 import { formatDuration } from "../lib/format";
 import { Badge } from "./basics";
 import { useNow } from "./useNow";

@@ -5,7 +5,7 @@ import { useAction, useJob } from "../../api/queries";
 import type { Job } from "../../api/types";
 import type { LiveJob } from "../../live/jobLive";
 import { useJobLive } from "../../live/useJobLive";
-import type { StreamHealth } from "../../live/useEventStream";
+import type { StreamHealth } from "../../live/eventStream";
 import { isFinal } from "../../lib/states";
 import { Card, PageHead, StateBadge } from "../../ui/basics";
 import { Loaded, Notice } from "../../ui/feedback";

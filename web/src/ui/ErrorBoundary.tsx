@@ -1,8 +1,14 @@
 import { Component, type ReactNode } from "react";
-import { Problem } from "../ui/feedback";
+import { Problem } from "./feedback";
 
-/** Shows the error of a page that crashed; the navigation stays usable. */
-export class ErrorBoundary extends Component<{ children: ReactNode }, { error: Error | null }> {
+interface Props {
+  /** What crashed, as a sentence. */
+  title: string;
+  children: ReactNode;
+}
+
+/** Shows the error of a part that crashed; the rest stays usable. */
+export class ErrorBoundary extends Component<Props, { error: Error | null }> {
   override state: { error: Error | null } = { error: null };
 
   static getDerivedStateFromError(error: Error) {
@@ -14,7 +20,7 @@ export class ErrorBoundary extends Component<{ children: ReactNode }, { error: E
     if (error === null) return this.props.children;
     return (
       <div className="stack">
-        <Problem error={error} title="This page crashed" />
+        <Problem error={error} title={this.props.title} />
         <div>
           <button type="button" className="button" onClick={() => window.location.reload()}>
             Reload
