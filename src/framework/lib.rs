@@ -17,6 +17,7 @@ pub mod job;
 mod name;
 pub mod optimizer;
 pub mod preset;
+pub mod random;
 pub mod recognition;
 pub mod robot;
 pub mod trajectory;

@@ -2,11 +2,10 @@
 
 use crate::framework::execution::{Iet, Problem, simulate};
 use crate::framework::preset::Preset;
+use crate::framework::random::RandomStream;
 use crate::framework::robot::{Chain, RobotModel, RobotSpec};
 use crate::framework::whole_run::{Space, Trial};
 use anyhow::{Context as _, bail};
-use rand::SeedableRng as _;
-use rand_chacha::ChaCha8Rng;
 
 /// A problem to run for many seeds.
 pub(super) struct Seeded {
@@ -71,7 +70,7 @@ fn is_same_robot(one: &Problem, other: &Problem) -> bool {
 fn started_anywhere(problem: &Problem, seed: u64) -> anyhow::Result<RobotSpec> {
     let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
     let mut pose = chain.home().to_vec();
-    Space::of(&chain).uniform(&mut ChaCha8Rng::seed_from_u64(seed), &mut pose);
+    Space::of(&chain).uniform(&mut RandomStream::of_run(seed, 0), &mut pose);
     let home = chain.genes().iter().map(|gene| gene.name.clone()).zip(pose).collect();
     Ok(RobotSpec { home, ..problem.robot.clone() })
 }

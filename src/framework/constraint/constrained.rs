@@ -20,8 +20,9 @@ use super::set::{Constraints, Proposal};
 use super::spec::{HandlingSpec, OnInfeasible, PenaltyKind};
 use super::state::{ConstrainedState, STATE_VERSION, Waiting};
 use crate::optimizer::{
-    Batch, Best, Hall, Optimizer, OptimizerError, OptimizerState, Outcome, RandomStream, SearchSpace, StopReason, Tally,
+    Batch, Best, Hall, Optimizer, OptimizerError, OptimizerState, Outcome, SearchSpace, StopReason, Tally,
 };
+use crate::random::RandomStream;
 use std::sync::Arc;
 
 /// Halvings of a step before its origin itself is taken; bisections of a repair.

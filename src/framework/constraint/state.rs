@@ -1,7 +1,8 @@
 //! What the judge of one goal remembers; saved and resumed as it is.
 
 use super::penalty::PenaltyState;
-use crate::optimizer::{Hall, OptimizerError, OptimizerState, RandomStream, SearchSpace, Tally};
+use crate::optimizer::{Hall, OptimizerError, OptimizerState, SearchSpace, Tally};
+use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`ConstrainedState`]; changes when its meaning does.

@@ -11,7 +11,8 @@
 
 use super::granules::Granules;
 use super::swarm::{Estimator, Flight, Swarm, SwarmState};
-use super::{AffgPsoSpec, Optimizer, OptimizerError, OptimizerState, Provenance, RandomStream, SearchSpace};
+use super::{AffgPsoSpec, Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
+use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
 /// Threshold where the least fitness is 0: no similarity reaches it.

@@ -9,7 +9,8 @@
 //! IEEE Swarm Intelligence Symposium 2005, 116-123 (flight formula in objective space).
 
 use super::swarm::{Estimator, Flight, Swarm, SwarmState};
-use super::{FiPsoSpec, Optimizer, OptimizerError, OptimizerState, Provenance, RandomStream, SearchSpace};
+use super::{FiPsoSpec, Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
+use crate::random::RandomStream;
 
 /// Inherits with that probability.
 #[derive(Debug)]

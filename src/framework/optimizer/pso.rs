@@ -5,7 +5,8 @@
 //! options of [`SwarmSpec`](super::SwarmSpec). Movement and sources: the swarm's `movement` module.
 
 use super::swarm::{Estimator, Flight, Swarm, SwarmState};
-use super::{Optimizer, OptimizerError, OptimizerState, Provenance, PsoSpec, RandomStream, SearchSpace};
+use super::{Optimizer, OptimizerError, OptimizerState, Provenance, PsoSpec, SearchSpace};
+use crate::random::RandomStream;
 
 /// Estimates nothing.
 #[derive(Debug)]

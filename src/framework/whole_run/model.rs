@@ -12,8 +12,7 @@ use super::belief::{Aim, Belief, distance};
 use super::shortlist::{Starts, nearest_by_prior};
 use super::space::Space;
 use super::{FeatureMap, Outcome, Proposal, Trial, WholeRun};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -107,8 +106,7 @@ impl ModelIet {
     }
 
     fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> Proposal {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        random.set_stream(self.log.len() as u64 + 1);
+        let mut random = RandomStream::of_run(self.seed, self.log.len() as u64 + 1);
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         if self.log.iter().chain(&self.earlier).all(|t| t.observation.is_none()) {
             let blind = self.log.len() >= identification + self.spec.max_tries as usize;
@@ -199,7 +197,7 @@ impl ModelIet {
         goal: &Open,
         starts: &mut Starts,
         belief: &mut Belief,
-        random: &mut ChaCha8Rng,
+        random: &mut RandomStream,
     ) -> Option<(f64, Vec<f64>)> {
         let target = self.goals[goal.index].as_slice();
         let sure = Aim { goal: target, caution: if goal.tries < CAUTIOUS_TRIES { CAUTION } else { LATE_CAUTION } };
@@ -220,7 +218,7 @@ impl ModelIet {
         goal: &Open,
         starts: &mut Starts,
         belief: &mut Belief,
-        random: &mut ChaCha8Rng,
+        random: &mut RandomStream,
     ) -> Option<Vec<f64>> {
         let target = self.goals[goal.index].as_slice();
         let hopeful = Aim { goal: target, caution: -0.25 };
@@ -236,7 +234,7 @@ impl ModelIet {
     }
 
     /// Refined poses, some found around the measured ones nearest to the goal.
-    fn search(&self, starts: &mut Starts, aim: Aim, belief: &mut Belief, random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
+    fn search(&self, starts: &mut Starts, aim: Aim, belief: &mut Belief, random: &mut RandomStream) -> Vec<Vec<f64>> {
         let trials = self.earlier.iter().chain(&self.log);
         let measured = |t: &'_ Trial| Some(distance(t.observation.as_deref()?, aim.goal));
         let mut nearest: Vec<(f64, &[f64])> =

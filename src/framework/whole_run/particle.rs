@@ -10,10 +10,9 @@
 
 use super::cover::{CoverSpec, Ledger, Verdict, fresh_count};
 use super::sobol;
-use super::space::{Space, gaussian};
+use super::space::Space;
 use super::{Outcome, Proposal, Trial, WholeRun};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use crate::random::RandomStream;
 
 /// Of a renewed pool, one pose in this many lies around the liked ones; their centres; their spread, rad.
 const LOCAL_SHARE: usize = 4;
@@ -77,13 +76,13 @@ impl ParticleIet {
         particles: usize,
         seed: u64,
     ) -> Self {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut random = RandomStream::of_run(seed, 0);
         let poses = sobol::poses(&space, spec.poses as usize, &mut random);
         let spreads = simulator.spreads();
         let words = simulator.cells().div_ceil(64);
         let particles = (0..particles)
             .map(|_| {
-                let parameters: Vec<f64> = spreads.iter().map(|s| s * gaussian(&mut random)).collect();
+                let parameters: Vec<f64> = spreads.iter().map(|s| s * random.normal()).collect();
                 let covers = simulator.covers(&parameters, &poses);
                 Particle { parameters, log_weight: 0.0, covers, painted: vec![0; words] }
             })
@@ -131,8 +130,7 @@ impl ParticleIet {
     }
 
     fn decide(&mut self) {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        random.set_stream(self.ledger.log.len() as u64 + 1);
+        let mut random = RandomStream::of_run(self.seed, self.ledger.log.len() as u64 + 1);
         let mut best = self.best();
         for _ in 0..RESAMPLINGS {
             if best.is_none_or(|b| b.0 >= CONVINCING) || self.ledger.log.is_empty() {
@@ -148,16 +146,16 @@ impl ParticleIet {
             Some((chance, z)) if chance >= HOPELESS => Some(z),
             Some(_) => {
                 let unused: Vec<usize> = (0..self.poses.len()).filter(|&z| !self.used[z]).collect();
-                Some(unused[random.random_range(0..unused.len())])
+                random.pick(&unused).copied()
             }
             None => None,
         };
     }
 
-    fn resample(&mut self, random: &mut ChaCha8Rng) {
+    fn resample(&mut self, random: &mut RandomStream) {
         let weights = self.weights();
         let spreads = self.simulator.spreads();
-        let start: f64 = random.random::<f64>();
+        let start = random.unit();
         let (mut sum, mut index) = (weights[0], 0);
         let count = self.particles.len();
         let drawn: Vec<Vec<f64>> = (0..count)
@@ -168,7 +166,7 @@ impl ParticleIet {
                     sum += weights[index];
                 }
                 let parent = &self.particles[index].parameters;
-                parent.iter().zip(&spreads).map(|(p, s)| p + JITTER * s * gaussian(random)).collect()
+                parent.iter().zip(&spreads).map(|(p, s)| p + JITTER * s * random.normal()).collect()
             })
             .collect();
         self.renew_poses(random);
@@ -187,7 +185,7 @@ impl ParticleIet {
     }
 
     /// A new pool: an even cover with another shift, and poses around those the old particles liked best.
-    fn renew_poses(&mut self, random: &mut ChaCha8Rng) {
+    fn renew_poses(&mut self, random: &mut RandomStream) {
         let mut liked = self.chances();
         liked.sort_by(|a, b| b.0.total_cmp(&a.0));
         liked.truncate(CENTRES);

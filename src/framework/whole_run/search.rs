@@ -20,8 +20,7 @@ use super::sites::{Grid, Sites};
 use super::sobol;
 use super::space::{Axis, Space};
 use super::{Outcome, Proposal, Trial, WholeRun};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use crate::random::RandomStream;
 
 const RADIUS_DEG: f64 = 9.0;
 const LENGTH_DEG: f64 = 20.0;
@@ -72,7 +71,7 @@ impl SearchIet {
         goals: &[Vec<f64>],
         seed: u64,
     ) -> Self {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut random = RandomStream::of_run(seed, 0);
         let poses = sobol::poses(space, spec.poses as usize, &mut random);
         let count = poses.len();
         let mut run = Self {

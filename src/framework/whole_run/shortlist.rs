@@ -8,7 +8,7 @@ use super::FeatureMap;
 use super::belief::{Aim, Belief, distance, squared_distance};
 use super::refine::{Local, refine};
 use super::space::Space;
-use rand_chacha::ChaCha8Rng;
+use crate::random::RandomStream;
 
 /// Uniform starts, shared by all goals.
 const UNIFORM_STARTS: usize = 600;
@@ -35,7 +35,7 @@ pub(super) struct Starts {
 
 impl Starts {
     /// Draws the uniform starts.
-    pub fn new(space: &Space, belief: &mut Belief, random: &mut ChaCha8Rng) -> Self {
+    pub fn new(space: &Space, belief: &mut Belief, random: &mut RandomStream) -> Self {
         let (joints, features) = (space.len(), belief.mean.len());
         let mut poses = vec![0.0; joints * UNIFORM_STARTS];
         let mut means = vec![0.0; features * UNIFORM_STARTS];
@@ -54,7 +54,7 @@ impl Starts {
         aim: Aim,
         centres: &[&[f64]],
         belief: &mut Belief,
-        random: &mut ChaCha8Rng,
+        random: &mut RandomStream,
     ) -> Vec<Vec<f64>> {
         let mut best = Shortlist::new();
         let weight = aim.caution * aim.goal.len() as f64;
@@ -117,7 +117,7 @@ pub(super) fn nearest_by_prior(
     goal: &[f64],
     prior: Option<&mut (dyn FeatureMap + '_)>,
     has_failed: bool,
-    random: &mut ChaCha8Rng,
+    random: &mut RandomStream,
 ) -> Vec<f64> {
     let mut best = (f64::INFINITY, space.home());
     if has_failed {

@@ -4,7 +4,7 @@
 //! further dimensions are filled by independent uniform numbers.
 
 use super::space::Space;
-use rand::{Rng, RngExt};
+use crate::random::RandomStream;
 
 /// (degree, coefficients, initial direction numbers) of dimensions 2 to 10.
 const PRIMITIVE: [(u32, u32, &[u32]); 9] = [
@@ -48,9 +48,9 @@ fn directions(dimension: usize) -> Option<[u32; 32]> {
 const PATIENCE: usize = 16;
 
 /// `count` allowed poses, shifted by one random offset per joint; fewer where hardly any is allowed.
-pub fn poses(space: &Space, count: usize, random: &mut impl Rng) -> Vec<Vec<f64>> {
+pub fn poses(space: &Space, count: usize, random: &mut RandomStream) -> Vec<Vec<f64>> {
     let tables: Vec<Option<[u32; 32]>> = (0..space.len()).map(directions).collect();
-    let shifts: Vec<f64> = space.axes.iter().map(|_| random.random::<f64>()).collect();
+    let shifts: Vec<f64> = space.axes.iter().map(|_| random.unit()).collect();
     let mut state = vec![0_u32; space.len()];
     (1..=count * PATIENCE)
         .map(|index| {
@@ -61,7 +61,7 @@ pub fn poses(space: &Space, count: usize, random: &mut impl Rng) -> Vec<Vec<f64>
                     *x ^= v[bit.min(31)];
                     (f64::from(*x) / 2.0_f64.powi(32) + shift).fract()
                 } else {
-                    random.random::<f64>()
+                    random.unit()
                 };
                 axis.lower + (axis.upper - axis.lower) * unit
             })
@@ -76,8 +76,7 @@ pub fn poses(space: &Space, count: usize, random: &mut impl Rng) -> Vec<Vec<f64>
 mod tests {
     use super::super::space::{Axis, Space};
     use super::{directions, poses};
-    use rand::SeedableRng;
-    use rand_chacha::ChaCha8Rng;
+    use crate::random::RandomStream;
     use std::sync::Arc;
 
     #[test]
@@ -100,7 +99,7 @@ mod tests {
     fn poses_stay_inside_the_limits_in_more_joints_than_the_table_holds() {
         let axis = Axis { lower: -1.0, upper: 2.0, home: 0.0, revolute: true };
         let space = Space::new(vec![axis; 12]);
-        let found = poses(&space, 100, &mut ChaCha8Rng::seed_from_u64(1));
+        let found = poses(&space, 100, &mut RandomStream::of_run(1, 0));
         assert_eq!(found.len(), 100);
         assert!(found.iter().flatten().all(|q| (-1.0..=2.0).contains(q)));
     }
@@ -109,8 +108,8 @@ mod tests {
     fn forbidden_poses_are_left_out_and_where_all_are_there_is_none() {
         let axis = Axis { lower: -1.0, upper: 2.0, home: 0.0, revolute: true };
         let space = |least: f64| Space::new(vec![axis; 2]).only(Arc::new(move |pose| pose[0] > least));
-        let found = poses(&space(1.0), 100, &mut ChaCha8Rng::seed_from_u64(1));
+        let found = poses(&space(1.0), 100, &mut RandomStream::of_run(1, 0));
         assert!(found.len() == 100 && found.iter().all(|pose| pose[0] > 1.0));
-        assert!(poses(&space(2.0), 100, &mut ChaCha8Rng::seed_from_u64(1)).is_empty());
+        assert!(poses(&space(2.0), 100, &mut RandomStream::of_run(1, 0)).is_empty());
     }
 }

@@ -1,7 +1,7 @@
 //! The joint space a method searches: limits, kinds, home and forbidden poses; identification moves follow from it.
 
+use crate::random::RandomStream;
 use crate::robot::{Chain, Gene, JointKind};
-use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
@@ -144,22 +144,16 @@ impl Space {
     }
 
     /// A pose uniform in the limits.
-    pub fn uniform(&self, random: &mut impl Rng, pose: &mut [f64]) {
+    pub fn uniform(&self, random: &mut RandomStream, pose: &mut [f64]) {
         for (value, axis) in pose.iter_mut().zip(&self.axes) {
-            *value = axis.lower + (axis.upper - axis.lower) * random.random::<f64>();
+            *value = random.between(axis.lower, axis.upper);
         }
     }
 
     /// `centre` moved by a Gaussian of standard deviation `spread` (rad or share of a stroke), into the limits.
-    pub fn near(&self, centre: &[f64], spread: f64, random: &mut impl Rng, pose: &mut [f64]) {
+    pub fn near(&self, centre: &[f64], spread: f64, random: &mut RandomStream, pose: &mut [f64]) {
         for ((value, axis), at) in pose.iter_mut().zip(&self.axes).zip(centre) {
-            *value = (at + spread / axis.scale() * gaussian(random)).clamp(axis.lower, axis.upper);
+            *value = (at + spread / axis.scale() * random.normal()).clamp(axis.lower, axis.upper);
         }
     }
-}
-
-/// A standard normal deviate (Box-Muller).
-pub fn gaussian(random: &mut impl Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - random.random::<f64>()).ln()).sqrt();
-    radius * (2.0 * PI * random.random::<f64>()).cos()
 }

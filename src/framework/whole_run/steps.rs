@@ -10,8 +10,7 @@
 
 use super::space::Space;
 use super::{Outcome, Proposal, Trial, WholeRun};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use crate::random::RandomStream;
 
 /// Poses tried around a blocked one, for each spread.
 const CLOUD: usize = 300;
@@ -83,8 +82,7 @@ impl Stepped {
                 }
             }
         }
-        let mut random = ChaCha8Rng::seed_from_u64(!self.seed);
-        random.set_stream(self.inner.log().len() as u64 + 1);
+        let mut random = RandomStream::of_run(!self.seed, self.inner.log().len() as u64 + 1);
         let mut pose = vec![0.0; wanted.len()];
         let mut best: Option<(f64, Vec<f64>)> = None;
         for spread in SPREADS {

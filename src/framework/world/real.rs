@@ -6,12 +6,10 @@
 
 use super::{World, WorldError, WorldSpec, build};
 use crate::Feature;
+use crate::random::RandomStream;
 use crate::robot::Chain;
 use crate::trajectory::{JointLimits, late, limits};
-use rand::{Rng, RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 use utoipa::ToSchema;
 
 /// How far reality is from its description.
@@ -79,8 +77,8 @@ pub fn build_real(
     seed: u64,
 ) -> Result<Box<dyn World>, WorldError> {
     reality.check()?;
-    let mut random = ChaCha8Rng::seed_from_u64(reality.seed.unwrap_or(seed));
-    let mut off = || 2.0 * random.random::<f64>() - 1.0;
+    let mut random = RandomStream::of_run(reality.seed.unwrap_or(seed), 0);
+    let mut off = || 2.0 * random.unit() - 1.0;
     let scales: Vec<f64> = (0..chain.link_count()).map(|_| 1.0 + reality.link_share * off()).collect();
     let direction = nalgebra::Vector3::new(off(), off(), off());
     let shift = direction.try_normalize(1e-9).unwrap_or_default() * reality.base_shift_m;
@@ -114,21 +112,16 @@ struct Real {
     effect: Vec<f64>,
 }
 
-fn gaussian(random: &mut impl Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - random.random::<f64>()).ln()).sqrt();
-    radius * (2.0 * PI * random.random::<f64>()).cos()
-}
-
 impl Real {
     /// Sets where the joints really go and where they are seen; returns the stream of the trial's noise.
-    fn act(&mut self, joints: &[f64]) -> ChaCha8Rng {
+    fn act(&mut self, joints: &[f64]) -> RandomStream {
         let mut word = self.seed ^ 0x9E37_79B9_7F4A_7C15;
         for joint in joints {
             word = (word ^ joint.to_bits()).wrapping_mul(0x94D0_49BB_1331_11EB).rotate_left(29);
         }
-        let mut random = ChaCha8Rng::seed_from_u64(word);
+        let mut random = RandomStream::of_run(word, 0);
         for (moved, joint) in self.moved.iter_mut().zip(joints) {
-            *moved = joint + self.reality.joint_noise_deg.to_radians() * gaussian(&mut random);
+            *moved = joint + self.reality.joint_noise_deg.to_radians() * random.normal();
         }
         let lag_s = self.reality.latency_s - self.reality.settle_s;
         if lag_s > 0.0 {
@@ -139,11 +132,11 @@ impl Real {
         random
     }
 
-    fn sense(&self, mut random: ChaCha8Rng, observation: &mut [f64]) {
+    fn sense(&self, mut random: RandomStream, observation: &mut [f64]) {
         for value in observation.iter_mut() {
-            *value += self.reality.sensor_noise * gaussian(&mut random);
+            *value += self.reality.sensor_noise * random.normal();
         }
-        if random.random::<f64>() < self.reality.lost_share {
+        if random.unit() < self.reality.lost_share {
             observation.fill(f64::NAN);
         }
     }

@@ -4,7 +4,7 @@
 //! figure 6; the weighting of negative updates is its equation 46.
 
 use super::weights::Weights;
-use crate::optimizer::RandomStream;
+use crate::random::RandomStream;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 

@@ -28,9 +28,8 @@ pub use state::CmaEsState;
 
 use super::hall::Hall;
 use super::waiting::Waiting;
-use super::{
-    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, RandomStream, SearchSpace, StopReason,
-};
+use super::{Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason};
+use crate::random::RandomStream;
 use distribution::{Axes, Distribution};
 use weights::Weights;
 

@@ -3,7 +3,8 @@
 use super::distribution::Distribution;
 use crate::optimizer::hall::Hall;
 use crate::optimizer::waiting::Waiting;
-use crate::optimizer::{OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null};
+use crate::optimizer::{OptimizerError, Provenance, SearchSpace, StopReason, infinite_as_null};
+use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`CmaEsState`]; changes when its meaning does.

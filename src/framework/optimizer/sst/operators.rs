@@ -3,7 +3,7 @@
 //! Symbols: parents p1, p2 and child, n genes; L, U the gene's limits; a = U(0, 1); coin = swap the parents with
 //! probability 1/2; d uniform in 0..n. An operator may write outside the limits; the caller decides what that means.
 
-use crate::optimizer::RandomStream;
+use crate::random::RandomStream;
 
 /// Two genes nearer than this (rad or m; 1e-12 degrees) are equal to [`simulated_binary`].
 const SBX_EQUAL: f64 = 1e-12 * std::f64::consts::PI / 180.0;

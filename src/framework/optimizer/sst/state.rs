@@ -2,7 +2,8 @@
 
 use crate::optimizer::hall::Hall;
 use crate::optimizer::waiting::Waiting;
-use crate::optimizer::{OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, infinite_as_null};
+use crate::optimizer::{OptimizerError, Provenance, SearchSpace, StopReason, infinite_as_null};
+use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`SstState`]; changes when its meaning does.

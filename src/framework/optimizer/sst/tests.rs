@@ -42,7 +42,7 @@ fn cross(name: &str, p1: &[f64], p2: &[f64], old: f64, first: usize, seed: u64) 
         Parents { p1, p2, fitness: [1.0, 2.0], lower: &[-0.26; 3], upper: &[1.75; 3], first, shared: [false; 2] };
     let mut child = vec![old; 3];
     let operator = CROSSOVERS.iter().find(|(n, _)| *n == name).unwrap().1;
-    operator(&parents, &mut child, &mut crate::optimizer::RandomStream::new(seed, 0));
+    operator(&parents, &mut child, &mut crate::random::RandomStream::new(seed, 0));
     child
 }
 

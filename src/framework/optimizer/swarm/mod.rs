@@ -23,9 +23,9 @@ pub use state::SwarmState;
 use super::hall::Hall;
 use super::waiting::Waiting;
 use super::{
-    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, RandomStream, SearchSpace, StopReason,
-    Tally,
+    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason, Tally,
 };
+use crate::random::RandomStream;
 use movement::{Pull, fly};
 
 /// A particle that has moved, and what its fitness may be estimated from.

@@ -8,7 +8,8 @@
 //! Comput. 6 (2002) 58-73, DOI 10.1109/4235.985692.
 
 use super::spec::{SwarmSpec, VelocityClamp};
-use crate::optimizer::{BoundsRule, RandomStream, SearchSpace};
+use crate::optimizer::{BoundsRule, SearchSpace};
+use crate::random::RandomStream;
 
 /// What a particle reads when it moves; all of n genes.
 pub(super) struct Pull<'a> {

@@ -4,7 +4,8 @@ use super::movement::limited;
 use super::spec::SwarmSpec;
 use crate::optimizer::hall::Hall;
 use crate::optimizer::waiting::Waiting;
-use crate::optimizer::{OptimizerError, Provenance, RandomStream, SearchSpace, StopReason, Tally, infinite_as_null};
+use crate::optimizer::{OptimizerError, Provenance, SearchSpace, StopReason, Tally, infinite_as_null};
+use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`SwarmState`]; changes when its meaning does.
