@@ -2,7 +2,7 @@
 //!
 //! # Invariants
 //! - A final state accepts no event at all: a job ends exactly once.
-//! - `Interrupted` and `Halted` remember nothing: what a job was doing is in its checkpoint.
+//! - `Interrupted` remembers nothing: what a job was doing is in its checkpoint.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -22,10 +22,6 @@ pub enum State {
     Pausing,
     /// Rests at its checkpoint until resumed.
     Paused,
-    /// Waits for a person's approval of a trajectory.
-    AwaitingApproval,
-    /// Stopped for safety (stop, lost lease, lost link); needs a person's acknowledgement.
-    Halted,
     /// Its worker was lost; goes on from its last checkpoint.
     Interrupted,
     /// Asked to cancel; the worker has not seen it yet.
@@ -52,14 +48,6 @@ pub enum Event {
     Rest,
     /// A user asks to go on.
     Resume,
-    /// The job needs an approval before it goes on.
-    AskApproval,
-    /// A person approved.
-    Approve,
-    /// A stop, a lost lease or a lost link of a robot.
-    Halt,
-    /// A person saw why it halted: it waits for a worker again.
-    Acknowledge,
     /// Its worker was lost.
     LoseWorker,
     /// It is offered to workers again.
@@ -86,14 +74,12 @@ pub struct InvalidTransition {
 
 impl State {
     /// All states.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 10] = [
         Self::Queued,
         Self::Preparing,
         Self::Running,
         Self::Pausing,
         Self::Paused,
-        Self::AwaitingApproval,
-        Self::Halted,
         Self::Interrupted,
         Self::Cancelling,
         Self::Cancelled,
@@ -110,8 +96,6 @@ impl State {
             Self::Running => "RUNNING",
             Self::Pausing => "PAUSING",
             Self::Paused => "PAUSED",
-            Self::AwaitingApproval => "AWAITING_APPROVAL",
-            Self::Halted => "HALTED",
             Self::Interrupted => "INTERRUPTED",
             Self::Cancelling => "CANCELLING",
             Self::Cancelled => "CANCELLED",
@@ -135,7 +119,7 @@ impl State {
     /// Whether a worker holds the job.
     #[must_use]
     pub fn is_held(self) -> bool {
-        matches!(self, Self::Preparing | Self::Running | Self::Pausing | Self::Cancelling | Self::AwaitingApproval)
+        matches!(self, Self::Preparing | Self::Running | Self::Pausing | Self::Cancelling)
     }
 
     /// The state after `event`.
@@ -144,30 +128,21 @@ impl State {
     /// [`InvalidTransition`] when this state does not accept the event.
     pub fn apply(self, event: Event) -> Result<Self, InvalidTransition> {
         use State::{
-            AwaitingApproval, Cancelled, Cancelling, Failed, Halted, Interrupted, Paused, Pausing, Preparing, Queued,
-            Running, Succeeded,
+            Cancelled, Cancelling, Failed, Interrupted, Paused, Pausing, Preparing, Queued, Running, Succeeded,
         };
         Ok(match (self, event) {
             (Queued, Event::Claim) => Preparing,
-            (Preparing, Event::Start) | (AwaitingApproval, Event::Approve) | (Pausing, Event::Resume) => Running,
+            (Preparing, Event::Start) | (Pausing, Event::Resume) => Running,
             (Preparing | Running, Event::Pause) => Pausing,
             (Pausing, Event::Rest | Event::LoseWorker) | (Queued | Interrupted, Event::Pause) => Paused,
             // A worker that shuts down gives back what it holds.
-            (Paused, Event::Resume)
-            | (Halted, Event::Acknowledge)
-            | (Interrupted | Preparing | Running, Event::Requeue) => Queued,
-            (Running, Event::AskApproval) => AwaitingApproval,
-            (Preparing | Running | Pausing | AwaitingApproval | Cancelling, Event::Halt) => Halted,
-            (Preparing | Running | AwaitingApproval, Event::LoseWorker) => Interrupted,
-            (Preparing | Running | Pausing | AwaitingApproval, Event::Cancel) => Cancelling,
-            (Queued | Paused | Halted | Interrupted, Event::Cancel) | (Cancelling, Event::Stop | Event::LoseWorker) => {
-                Cancelled
-            }
+            (Paused, Event::Resume) | (Interrupted | Preparing | Running, Event::Requeue) => Queued,
+            (Preparing | Running, Event::LoseWorker) => Interrupted,
+            (Preparing | Running | Pausing, Event::Cancel) => Cancelling,
+            (Queued | Paused | Interrupted, Event::Cancel) | (Cancelling, Event::Stop | Event::LoseWorker) => Cancelled,
             // The last slice may end before the worker sees a pause or a cancel: the result is kept.
             (Running | Pausing | Cancelling, Event::Succeed) => Succeeded,
-            (Queued | Preparing | Running | Pausing | AwaitingApproval | Interrupted | Cancelling, Event::Fail) => {
-                Failed
-            }
+            (Queued | Preparing | Running | Pausing | Interrupted | Cancelling, Event::Fail) => Failed,
             (state, event) => return Err(InvalidTransition { state, event }),
         })
     }
@@ -176,21 +151,14 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use State::{
-        AwaitingApproval, Cancelled, Cancelling, Failed, Halted, Interrupted, Paused, Pausing, Preparing, Queued,
-        Running, Succeeded,
-    };
+    use State::{Cancelled, Cancelling, Failed, Interrupted, Paused, Pausing, Preparing, Queued, Running, Succeeded};
 
-    const EVENTS: [Event; 15] = [
+    const EVENTS: [Event; 11] = [
         Event::Claim,
         Event::Start,
         Event::Pause,
         Event::Rest,
         Event::Resume,
-        Event::AskApproval,
-        Event::Approve,
-        Event::Halt,
-        Event::Acknowledge,
         Event::LoseWorker,
         Event::Requeue,
         Event::Cancel,
@@ -199,105 +167,22 @@ mod tests {
         Event::Fail,
     ];
 
-    /// One row a state, one column an event of [`EVENTS`].
-    fn table() -> [[Option<State>; 15]; 12] {
+    /// One row per state, one column per event of [`EVENTS`].
+    fn table() -> [[Option<State>; 11]; 10] {
         let no = None;
         let to = Some;
         [
-            // Claim, Start, Pause, Rest, Resume, AskApproval, Approve, Halt, Acknowledge, LoseWorker, Requeue, Cancel,
-            // Stop, Succeed, Fail
-            [to(Preparing), no, to(Paused), no, no, no, no, no, no, no, no, to(Cancelled), no, no, to(Failed)],
-            [
-                no,
-                to(Running),
-                to(Pausing),
-                no,
-                no,
-                no,
-                no,
-                to(Halted),
-                no,
-                to(Interrupted),
-                to(Queued),
-                to(Cancelling),
-                no,
-                no,
-                to(Failed),
-            ],
-            [
-                no,
-                no,
-                to(Pausing),
-                no,
-                no,
-                to(AwaitingApproval),
-                no,
-                to(Halted),
-                no,
-                to(Interrupted),
-                to(Queued),
-                to(Cancelling),
-                no,
-                to(Succeeded),
-                to(Failed),
-            ],
-            [
-                no,
-                no,
-                no,
-                to(Paused),
-                to(Running),
-                no,
-                no,
-                to(Halted),
-                no,
-                to(Paused),
-                no,
-                to(Cancelling),
-                no,
-                to(Succeeded),
-                to(Failed),
-            ],
-            [no, no, no, no, to(Queued), no, no, no, no, no, no, to(Cancelled), no, no, no],
-            [
-                no,
-                no,
-                no,
-                no,
-                no,
-                no,
-                to(Running),
-                to(Halted),
-                no,
-                to(Interrupted),
-                no,
-                to(Cancelling),
-                no,
-                no,
-                to(Failed),
-            ],
-            [no, no, no, no, no, no, no, no, to(Queued), no, no, to(Cancelled), no, no, no],
-            [no, no, to(Paused), no, no, no, no, no, no, no, to(Queued), to(Cancelled), no, no, to(Failed)],
-            [
-                no,
-                no,
-                no,
-                no,
-                no,
-                no,
-                no,
-                to(Halted),
-                no,
-                to(Cancelled),
-                no,
-                no,
-                to(Cancelled),
-                to(Succeeded),
-                to(Failed),
-            ],
-            [no; 15],
-            [no; 15],
-            [no; 15],
+            // Claim, Start, Pause, Rest, Resume, LoseWorker, Requeue, Cancel, Stop, Succeed, Fail
+            [to(Preparing), no, to(Paused), no, no, no, no, to(Cancelled), no, no, to(Failed)],
+            [no, to(Running), to(Pausing), no, no, to(Interrupted), to(Queued), to(Cancelling), no, no, to(Failed)],
+            [no, no, to(Pausing), no, no, to(Interrupted), to(Queued), to(Cancelling), no, to(Succeeded), to(Failed)],
+            [no, no, no, to(Paused), to(Running), to(Paused), no, to(Cancelling), no, to(Succeeded), to(Failed)],
+            [no, no, no, no, to(Queued), no, no, to(Cancelled), no, no, no],
+            [no, no, to(Paused), no, no, no, to(Queued), to(Cancelled), no, no, to(Failed)],
+            [no, no, no, no, no, to(Cancelled), no, no, to(Cancelled), to(Succeeded), to(Failed)],
+            [no; 11],
+            [no; 11],
+            [no; 11],
         ]
     }
 

@@ -93,15 +93,6 @@ impl JobService for Service {
         Ok(Response::new(job.into()))
     }
 
-    async fn acknowledge_job(
-        &self,
-        request: Request<proto::AcknowledgeJobRequest>,
-    ) -> Result<Response<proto::Job>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let job = self.0.acknowledge_job(&id).await.map_err(status)?;
-        Ok(Response::new(job.into()))
-    }
-
     async fn clone_job(&self, request: Request<proto::CloneJobRequest>) -> Result<Response<proto::Job>, Status> {
         let request = request.into_inner();
         let id = id(&request.id).map_err(status)?;

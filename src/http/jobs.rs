@@ -115,13 +115,6 @@ pub async fn cancel(State(app): State<App>, Path(id): Path<JobId>) -> Result<Jso
     Ok(Json(app.cancel_job(&id).await?))
 }
 
-/// Lets a halted job wait for a worker again.
-#[utoipa::path(post, path = "/jobs/{id}:acknowledge", operation_id = "acknowledgeJob", tag = "jobs",
-    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
-pub async fn acknowledge(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
-    Ok(Json(app.acknowledge_job(&id).await?))
-}
-
 /// Submits the same job again, with the same seed.
 #[utoipa::path(post, path = "/jobs/{id}:clone", operation_id = "cloneJob", tag = "jobs",
     params(("id" = JobId, Path),

@@ -118,7 +118,6 @@ fn resources() -> OpenApiRouter<Api> {
         .at(routes!(jobs::pause))
         .at(routes!(jobs::resume))
         .at(routes!(jobs::cancel))
-        .at(routes!(jobs::acknowledge))
         .at(routes!(jobs::clone))
         .at(routes!(experiments::list, experiments::create))
         .at(routes!(experiments::get))

@@ -124,14 +124,6 @@ impl App {
         self.ask(id, Event::Cancel).await
     }
 
-    /// Lets a halted job wait for a worker again.
-    ///
-    /// # Errors
-    /// `NotFound`; `Conflict` when it is not halted.
-    pub async fn acknowledge_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        self.ask(id, Event::Acknowledge).await
-    }
-
     async fn ask(&self, id: &JobId, event: Event) -> Result<JobView, AppError> {
         let job = self.ports.store.ask(id, Transition::plain(event), self.now()).await?;
         self.ports.events.publish(Wake::Job(id.clone()));

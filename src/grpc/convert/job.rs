@@ -17,8 +17,6 @@ impl From<State> for JobState {
             State::Running => Self::Running,
             State::Pausing => Self::Pausing,
             State::Paused => Self::Paused,
-            State::AwaitingApproval => Self::AwaitingApproval,
-            State::Halted => Self::Halted,
             State::Interrupted => Self::Interrupted,
             State::Cancelling => Self::Cancelling,
             State::Cancelled => Self::Cancelled,

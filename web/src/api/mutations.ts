@@ -16,7 +16,7 @@ export function useCreateJob() {
   });
 }
 
-export type JobVerb = "pause" | "resume" | "cancel" | "acknowledge" | "clone";
+export type JobVerb = "pause" | "resume" | "cancel" | "clone";
 
 function steer(id: string, verb: JobVerb): Promise<Job> {
   const params = { path: { id } };
@@ -27,8 +27,6 @@ function steer(id: string, verb: JobVerb): Promise<Job> {
       return body(api.POST("/api/v1/jobs/{id}:resume", { params }));
     case "cancel":
       return body(api.POST("/api/v1/jobs/{id}:cancel", { params }));
-    case "acknowledge":
-      return body(api.POST("/api/v1/jobs/{id}:acknowledge", { params }));
     case "clone":
       return body(
         api.POST("/api/v1/jobs/{id}:clone", { params: { ...params, header: { "Idempotency-Key": idempotencyKey() } } }),

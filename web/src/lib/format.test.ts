@@ -58,7 +58,7 @@ describe("times", () => {
 });
 
 it("turns codes into words", () => {
-  expect(format.humanize("AWAITING_APPROVAL")).toBe("awaiting approval");
+  expect(format.humanize("OUT_OF_REACH")).toBe("out of reach");
   expect(format.humanize(undefined)).toBe("–");
 });
 

@@ -17,8 +17,6 @@ const STATES: Record<JobState, StateInfo> = {
   RUNNING: { label: "Running", tone: "info", active: true },
   PAUSING: { label: "Pausing", tone: "warn", active: true },
   PAUSED: { label: "Paused", tone: "warn", active: false },
-  AWAITING_APPROVAL: { label: "Awaiting approval", tone: "warn", active: false },
-  HALTED: { label: "Halted", tone: "bad", active: false },
   INTERRUPTED: { label: "Interrupted", tone: "warn", active: false },
   CANCELLING: { label: "Cancelling", tone: "idle", active: true },
   CANCELLED: { label: "Cancelled", tone: "idle", active: false },

@@ -6,7 +6,7 @@ import { canCancel, canPause, canResume, isFinal } from "../../lib/states";
 import { Problem } from "../../ui/feedback";
 import { Icon } from "../../ui/icons";
 
-/** The actions the state allows: pause, resume, cancel (with confirmation), acknowledge, run again. */
+/** The actions the state allows: pause, resume, cancel (with confirmation), run again. */
 export function JobControls({ job, state }: { job: Job; state: JobState }) {
   const steer = useSteerJob(job.id);
   const navigate = useNavigate();
@@ -29,11 +29,6 @@ export function JobControls({ job, state }: { job: Job; state: JobState }) {
       {canResume(state) && (
         <button type="button" className="button primary" disabled={steer.isPending} onClick={() => say("resume")}>
           <Icon name="play" /> Resume
-        </button>
-      )}
-      {state === "HALTED" && (
-        <button type="button" className="button primary" disabled={steer.isPending} onClick={() => say("acknowledge")}>
-          Acknowledge and queue again
         </button>
       )}
       {canCancel(state) && !confirming && (
