@@ -3,8 +3,8 @@
 //! `cargo bench --bench model`: a proposal must not keep a robot waiting; 20 ms after 60 trials is the bound.
 
 use cgda::framework::execution::Iet;
+use cgda::framework::method::whole_run::{ModelIet, ModelSpec, Space, Trial, WholeRun};
 use cgda::framework::preset::shipped;
-use cgda::framework::whole_run::{ModelIet, ModelSpec, Space, Trial, WholeRun};
 use divan::{Bencher, black_box};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -1,8 +1,8 @@
 //! Evaluation in a simulated world, in slices on the threads for blocking work.
 
 use crate::framework::execution::{Iet, IetState, Problem, ProblemError, Progress, RunResult, simulate};
+use crate::framework::method::whole_run::Trial;
 use crate::framework::robot::Chain;
-use crate::framework::whole_run::Trial;
 use crate::framework::world::World;
 
 /// One run in its world.

@@ -14,14 +14,13 @@ pub mod experiment;
 pub mod feature;
 pub mod generalization;
 pub mod job;
+pub mod method;
 mod name;
-pub mod optimizer;
 pub mod preset;
 pub mod random;
 pub mod recognition;
 pub mod robot;
 pub mod trajectory;
-pub mod whole_run;
 pub mod world;
 
 pub use feature::Feature;

@@ -13,7 +13,7 @@ use crate::app::ports::{Advance, NewRun, Transition};
 use crate::evaluate::{Pace, Simulation};
 use crate::framework::execution::{GoalResult, Problem, ProblemError, Progress};
 use crate::framework::job::{Event, State};
-use crate::framework::whole_run::Trial;
+use crate::framework::method::whole_run::Trial;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use tokio::time::Instant;

@@ -13,10 +13,10 @@ use crate::app::ports::{
 use crate::framework::experiment::{Plan, RunId as Which, RunRow};
 use crate::framework::generalization::Weighting;
 use crate::framework::job::{Event, State};
-use crate::framework::optimizer::Tally;
+use crate::framework::method::per_goal::Tally;
+use crate::framework::method::whole_run::Trial;
 use crate::framework::recognition::Metric;
 use crate::framework::robot::{ChainSummary, RobotSpec, RobotSummary};
-use crate::framework::whole_run::Trial;
 use std::time::Duration;
 use uuid::Uuid;
 

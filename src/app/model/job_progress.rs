@@ -2,7 +2,7 @@
 
 use super::null_as_infinite;
 use super::run::RunGoal;
-use crate::framework::optimizer::StopReason;
+use crate::framework::method::per_goal::StopReason;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

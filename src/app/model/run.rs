@@ -4,9 +4,9 @@ use super::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use super::null_as_infinite;
 use super::time::Timestamp;
 use crate::framework::Feature;
-use crate::framework::optimizer::{Provenance, StopReason, Tally};
+use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
+use crate::framework::method::whole_run::Trial;
 use crate::framework::recognition::Metric;
-use crate::framework::whole_run::Trial;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

@@ -15,7 +15,7 @@ use crate::app::model::{
 };
 use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::{Event, InvalidTransition, State};
-use crate::framework::whole_run::Trial;
+use crate::framework::method::whole_run::Trial;
 use async_trait::async_trait;
 use std::sync::Arc;
 use std::time::Duration;

@@ -43,7 +43,7 @@ struct Goal {
     index: usize,
     evaluations: u64,
     discrepancy: f64,
-    stop_reason: crate::framework::optimizer::StopReason,
+    stop_reason: crate::framework::method::per_goal::StopReason,
 }
 
 /// One JSON object.

@@ -4,7 +4,7 @@ use super::reality::{RealityArguments, SurfaceArguments};
 use crate::cli::demonstrations::{ReadArguments, read_demonstrations};
 use crate::framework::execution::{ExecutionSpec, Problem};
 use crate::framework::generalization::{GeneralizeSpec, Weighting, generalize};
-use crate::framework::optimizer::{MethodSpec, SstSpec};
+use crate::framework::method::per_goal::{MethodSpec, SstSpec};
 use crate::framework::preset::{self, Preset};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;

@@ -1,8 +1,8 @@
 //! What the simulated real world is like, and what a method is told of it.
 
 use crate::framework::execution::Problem;
-use crate::framework::optimizer::MethodSpec;
-use crate::framework::whole_run::Prior;
+use crate::framework::method::per_goal::MethodSpec;
+use crate::framework::method::whole_run::Prior;
 use crate::framework::world::{RealitySpec, SurfaceView, WorldSpec};
 
 #[derive(Debug, clap::Args)]

@@ -1,10 +1,10 @@
 //! What of a run's problem depends on its seed: where the robot starts, and what it did before.
 
 use crate::framework::execution::{Iet, Problem, simulate};
+use crate::framework::method::whole_run::{Space, Trial};
 use crate::framework::preset::Preset;
 use crate::framework::random::RandomStream;
 use crate::framework::robot::{Chain, RobotModel, RobotSpec};
-use crate::framework::whole_run::{Space, Trial};
 use anyhow::{Context as _, bail};
 
 /// A problem to run for many seeds.

@@ -19,8 +19,8 @@ use super::penalty::{self, PenaltyState, penalised};
 use super::set::{Constraints, Proposal};
 use super::spec::{HandlingSpec, OnInfeasible, PenaltyKind};
 use super::state::{ConstrainedState, STATE_VERSION, Waiting};
-use crate::optimizer::{
-    Batch, Best, Hall, Optimizer, OptimizerError, OptimizerState, Outcome, SearchSpace, StopReason, Tally,
+use crate::method::per_goal::{
+    Batch, Best, Incumbent, Optimizer, OptimizerError, OptimizerState, Outcome, SearchSpace, StopReason, Tally,
 };
 use crate::random::RandomStream;
 use std::sync::Arc;
@@ -306,7 +306,8 @@ impl Optimizer for Constrained {
             }
             (Outcome::Observed { fitness, observation, provenance }, _) => {
                 if self.state.known.as_ref().is_none_or(|known| fitness < known.fitness) {
-                    self.state.known = Some(Hall { joints, observation: observation.to_vec(), fitness, provenance });
+                    self.state.known =
+                        Some(Incumbent { joints, observation: observation.to_vec(), fitness, provenance });
                 }
                 self.inner.tell(id, outcome);
             }
@@ -316,7 +317,7 @@ impl Optimizer for Constrained {
     }
 
     fn best(&self) -> Option<Best<'_>> {
-        let known = self.state.known.as_ref().map(Hall::as_best);
+        let known = self.state.known.as_ref().map(Incumbent::as_best);
         match (&self.rules.handling, self.rules.on_infeasible) {
             (HandlingSpec::Penalty(spec), _)
                 if !matches!(spec.penalty, PenaltyKind::Death { .. }) && known.is_some() =>

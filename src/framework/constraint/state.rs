@@ -1,7 +1,7 @@
 //! What the judge of one goal remembers; saved and resumed as it is.
 
 use super::penalty::PenaltyState;
-use crate::optimizer::{Hall, OptimizerError, OptimizerState, SearchSpace, Tally};
+use crate::method::per_goal::{Incumbent, OptimizerError, OptimizerState, SearchSpace, Tally};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,7 @@ pub struct ConstrainedState {
     /// Rejections in a row.
     pub(super) attempts: u32,
     pub(super) waiting: Vec<Waiting>,
-    pub(super) known: Option<Hall>,
+    pub(super) known: Option<Incumbent>,
     /// The smallest violations of an infeasible candidate, one a constraint.
     pub(super) nearest: Option<Vec<f64>>,
     pub(super) tally: Tally,

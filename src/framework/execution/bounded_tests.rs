@@ -1,7 +1,7 @@
 //! Methods that own a run under constraints: nothing forbidden is executed, and what is left is told.
 
 use super::*;
-use crate::optimizer::{Batch, Provenance, StopReason};
+use crate::method::per_goal::{Batch, Provenance, StopReason};
 use crate::preset::shipped;
 use crate::robot::tool_position;
 use crate::world::WorldSpec;

@@ -4,8 +4,8 @@ use super::error::ProblemError;
 use super::spec::ExecutionSpec;
 use crate::constraint::{ConstraintError, HandlingSpec, Rules};
 use crate::generalization::Goals;
-use crate::optimizer::MethodSpec;
-use crate::whole_run::Trial;
+use crate::method::per_goal::MethodSpec;
+use crate::method::whole_run::Trial;
 use crate::world::WorldSpec;
 
 /// Largest goal, features' unit: as large as a demonstration may be.

@@ -9,8 +9,8 @@
 
 use super::spec::{ExecutionSpec, Problem};
 use crate::constraint::{ConstraintSpec, HandlingSpec};
-use crate::optimizer::{AutoSpec, CmaEsSpec, MethodSpec, ParticleSpec};
-use crate::whole_run::{CoverSpec, ModelSpec, Prior};
+use crate::method::per_goal::{AutoSpec, CmaEsSpec, MethodSpec, ParticleSpec};
+use crate::method::whole_run::{CoverSpec, ModelSpec, Prior};
 use crate::world::WorldSpec;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

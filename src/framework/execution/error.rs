@@ -1,7 +1,7 @@
 //! Why a problem cannot be executed.
 
 use crate::constraint::ConstraintError;
-use crate::optimizer::OptimizerError;
+use crate::method::per_goal::OptimizerError;
 use crate::robot::{ChainError, ModelError};
 use crate::world::WorldError;
 

@@ -18,9 +18,9 @@ use super::setup::Setup;
 use super::spec::Problem;
 use super::state::{GoalState, IetState, STATE_VERSION};
 use crate::constraint::Proposal;
-use crate::optimizer::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
+use crate::method::per_goal::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
+use crate::method::whole_run::{Proposal as Next, Trial};
 use crate::robot::Chain;
-use crate::whole_run::{Proposal as Next, Trial};
 use crate::world::{self, World};
 
 /// The candidate by which a winner that was never executed is executed.

@@ -3,10 +3,10 @@
 use super::*;
 use crate::Feature;
 use crate::generalization::Goals;
-use crate::optimizer::{MethodSpec, StopReason};
+use crate::method::per_goal::{MethodSpec, StopReason};
+use crate::method::whole_run::{ModelSpec, Prior, Trial};
 use crate::preset::shipped;
 use crate::robot::RobotSpec;
-use crate::whole_run::{ModelSpec, Prior, Trial};
 use crate::world::RealitySpec;
 use rstest::rstest;
 

@@ -1,6 +1,6 @@
 //! What was seen of candidates, on its way back to the run: flat and reused, as batches are.
 
-use crate::optimizer::Provenance;
+use crate::method::per_goal::Provenance;
 
 /// What was seen of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,12 +6,12 @@ use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
 use crate::constraint::Proposal as Pose;
-use crate::optimizer::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
-use crate::robot::Chain;
-use crate::whole_run::{
+use crate::method::per_goal::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
+use crate::method::whole_run::{
     Broyden, CoverSpec, FeatureMap, Grid, ModelIet, ModelSpec, ParticleIet, Prior, Proposal, SearchIet, Simulator,
     Space, StepLimits, Stepped, Targets, Trial, WholeRun,
 };
+use crate::robot::Chain;
 use crate::world::{self, CoverageSpec, SurfaceView, World, WorldSpec};
 use std::sync::Arc;
 

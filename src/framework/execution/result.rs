@@ -1,6 +1,6 @@
 //! What an execution yields, goal by goal, and what can be told of one that runs.
 
-use crate::optimizer::{Provenance, StopReason, Tally};
+use crate::method::per_goal::{Provenance, StopReason, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use utoipa::ToSchema;

@@ -7,9 +7,9 @@ use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
 use crate::constraint::{Constrained, Constraints, Rules};
 use crate::generalization::Goals;
-use crate::optimizer::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
+use crate::method::per_goal::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
+use crate::method::whole_run::Trial;
 use crate::robot::{Chain, RobotModel};
-use crate::whole_run::Trial;
 use crate::world::{self, CoverageSpec, SurfaceView, WorldSpec};
 use std::sync::Arc;
 
@@ -87,7 +87,7 @@ impl Setup {
     /// A fresh search for the goal after `results`.
     pub(super) fn start(&self, seed: u64, results: &[GoalResult]) -> Result<Box<dyn Optimizer>, ProblemError> {
         let stream = results.len() as u64;
-        let inner = optimizer::start(&self.spec.method, self.space(results), seed, stream)?;
+        let inner = per_goal::start(&self.spec.method, self.space(results), seed, stream)?;
         Ok(match self.rules(results) {
             Some(rules) => Box::new(Constrained::new(inner, rules, self.space(results), seed, stream)),
             None => inner,
@@ -100,7 +100,7 @@ impl Setup {
         results: &[GoalResult],
         state: OptimizerState,
     ) -> Result<Box<dyn Optimizer>, ProblemError> {
-        let resume = |state| optimizer::resume(&self.spec.method, self.space(results), state);
+        let resume = |state| per_goal::resume(&self.spec.method, self.space(results), state);
         Ok(match (self.rules(results), state) {
             (Some(rules), OptimizerState::Constrained(state)) => {
                 let inner = resume(state.inner().clone())?;

@@ -5,7 +5,7 @@ use super::iet::Iet;
 use super::observations::Observations;
 use super::result::{Progress, RunResult};
 use super::spec::Problem;
-use crate::optimizer::{Batch, Provenance};
+use crate::method::per_goal::{Batch, Provenance};
 use crate::world::World;
 
 /// Candidates asked for at once.

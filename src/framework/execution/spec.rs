@@ -3,10 +3,10 @@
 use super::choice::Chosen;
 use crate::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::generalization::Goals;
-use crate::optimizer::{MethodChoice, MethodSpec, method_or_name};
+use crate::method::per_goal::{MethodChoice, MethodSpec, method_or_name};
+use crate::method::whole_run::Trial;
 use crate::recognition::Metric;
 use crate::robot::RobotSpec;
-use crate::whole_run::Trial;
 use crate::world::{RealitySpec, WorldSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

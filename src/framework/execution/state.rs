@@ -2,8 +2,8 @@
 
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
-use crate::optimizer::{OptimizerState, StopReason};
-use crate::whole_run::Trial;
+use crate::method::per_goal::{OptimizerState, StopReason};
+use crate::method::whole_run::Trial;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`IetState`]; changes when its meaning does.

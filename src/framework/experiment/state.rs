@@ -5,7 +5,7 @@
 //! - A run is recorded once; recording the same row again changes nothing, another row for the same run is refused.
 
 use super::{Cell, CellResult, Plan};
-use crate::optimizer::Tally;
+use crate::method::per_goal::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;

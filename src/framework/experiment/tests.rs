@@ -3,7 +3,7 @@
 use super::*;
 use crate::execution::{ExecutionSpec, Problem};
 use crate::generalization::Goals;
-use crate::optimizer::{MethodSpec, PsoSpec, SstSpec, SwarmSpec, Tally};
+use crate::method::per_goal::{MethodSpec, PsoSpec, SstSpec, SwarmSpec, Tally};
 use crate::preset::Preset;
 use crate::world::{ToolPositionSpec, WorldSpec};
 use crate::{Feature, recognition::Metric, robot::RobotSpec};

@@ -5,7 +5,7 @@
 
 use crate::execution::{ExecutionSpec, Problem};
 use crate::generalization::Goals;
-use crate::optimizer::MethodSpec;
+use crate::method::per_goal::MethodSpec;
 use crate::robot::RobotSpec;
 use crate::world::WorldSpec;
 use serde::Deserialize;

@@ -2,7 +2,7 @@
 
 use super::all;
 use crate::app::model::{RunGoal, RunGoals, RunTrials, RunView};
-use crate::framework::optimizer::StopReason;
+use crate::framework::method::per_goal::StopReason;
 use crate::grpc::proto;
 
 impl From<RunView> for proto::Run {

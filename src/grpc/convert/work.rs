@@ -6,7 +6,7 @@ use crate::app::shape;
 use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::framework::execution::{Chosen, ExecutionSpec};
 use crate::framework::generalization::Weighting;
-use crate::framework::optimizer::{BoundsRule, MethodSpec, SstSpec, method_or_name};
+use crate::framework::method::per_goal::{BoundsRule, MethodSpec, SstSpec, method_or_name};
 use crate::grpc::proto;
 use proto::execution_spec::Method;
 use proto::work::Kind;

@@ -27,7 +27,7 @@ use crate::app::ports::{
 };
 use crate::framework::experiment::{Plan, RunRow};
 use crate::framework::job::State;
-use crate::framework::whole_run::Trial;
+use crate::framework::method::whole_run::Trial;
 use async_trait::async_trait;
 use sqlx::sqlite::{SqlitePool, SqlitePoolOptions};
 use std::path::Path;

@@ -5,7 +5,7 @@ use super::statements::statements;
 use super::{SqliteStore, engine_error};
 use crate::app::model::RunView;
 use crate::app::ports::{KeptTrials, NewRun, StoreError};
-use crate::framework::whole_run::Trial;
+use crate::framework::method::whole_run::Trial;
 use sqlx::sqlite::SqliteConnection;
 
 statements! {

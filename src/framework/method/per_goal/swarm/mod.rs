@@ -1,0 +1,332 @@
+//! The particle swarm that PSO, FI-PSO and AFFG-PSO share; they differ in how a moved particle gets its fitness.
+//!
+//! P particles, uniform in the limits, all executed. Then each generation: (a) a particle whose fitness is below that
+//! of its memory remembers its position (in generation 1 only the fitness: the position was set at the start); (b) the
+//! particles move in order ([`movement`]) and get a fitness, by execution or by an [`Estimator`]. At its end the best of
+//! the swarm (the last on ties) enters the hall of fame if strictly better than the one there; the search stops when
+//! more than S generations have passed since the hall last changed.
+//!
+//! # Invariants
+//! - The bits do not depend on how many candidates are asked for at once: a particle moves before an earlier one was
+//!   told only where its move cannot depend on it (leader by memory, estimator without memory of the generation).
+//! - Only executed particles enter the hall, unless `unexecuted_may_win`.
+
+mod movement;
+mod spec;
+mod state;
+#[cfg(test)]
+mod tests;
+
+pub use spec::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, VelocityClamp};
+pub use state::SwarmState;
+
+use super::incumbent::Incumbent;
+use super::waiting::Waiting;
+use super::{
+    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason, Tally,
+};
+use crate::random::RandomStream;
+use movement::{Pull, fly};
+
+/// A particle that has moved, and what its fitness may be estimated from.
+pub(super) struct Flight<'a> {
+    /// Its new position.
+    pub x: &'a [f64],
+    /// Its fitness before the move.
+    pub fitness: f64,
+    /// Fitness of its own memory.
+    pub memory: f64,
+    /// Fitness of the leader's memory.
+    pub leader: f64,
+    /// Mean c1 R1 and c2 R2 of the move.
+    pub weights: [f64; 2],
+}
+
+/// Gives moved particles a fitness without executing them.
+pub(super) trait Estimator: Send {
+    /// The method's name.
+    const METHOD: &'static str;
+    /// Where its estimates come from.
+    const PROVENANCE: Provenance;
+
+    /// Whether estimates of one generation depend on its executions.
+    fn depends_on_order(&self) -> bool;
+    /// Whether an estimated particle may be the result.
+    fn may_win(&self) -> bool;
+    /// A generation begins with these fitness values.
+    fn begin(&mut self, fitness: &[f64]);
+    /// A fitness for that particle, or none: it is executed.
+    fn estimate(&mut self, flight: &Flight<'_>, rng: &mut RandomStream) -> Option<f64>;
+    /// A moved particle was executed.
+    fn executed(&mut self, x: &[f64], fitness: f64);
+    /// The whole optimiser's state.
+    fn save(&self, swarm: SwarmState) -> OptimizerState;
+}
+
+/// A particle swarm with an estimator.
+#[derive(Debug)]
+pub(super) struct Swarm<E> {
+    spec: SwarmSpec,
+    space: SearchSpace,
+    state: SwarmState,
+    estimator: E,
+    /// How many of `state.waiting` were handed out since start or resume.
+    handed: usize,
+}
+
+impl<E: Estimator> Swarm<E> {
+    pub fn new(
+        spec: &SwarmSpec,
+        estimator: E,
+        space: SearchSpace,
+        seed: u64,
+        stream: u64,
+    ) -> Result<Self, OptimizerError> {
+        spec.check(E::METHOD)?;
+        let state = SwarmState::new(spec, &space, seed, stream);
+        Ok(Self { spec: spec.clone(), space, state, estimator, handed: 0 })
+    }
+
+    pub fn resume(
+        spec: &SwarmSpec,
+        estimator: E,
+        space: SearchSpace,
+        state: SwarmState,
+    ) -> Result<Self, OptimizerError> {
+        spec.check(E::METHOD)?;
+        state.check(E::METHOD, spec.population as usize, &space)?;
+        Ok(Self { spec: spec.clone(), space, state, estimator, handed: 0 })
+    }
+
+    fn row(&self, slot: usize) -> std::ops::Range<usize> {
+        let genes = self.space.lower.len();
+        slot * genes..(slot + 1) * genes
+    }
+
+    fn leader(&self) -> usize {
+        let (values, last_on_ties) = match self.spec.leader {
+            Leader::BestMemory => (&self.state.memory_fitness, false),
+            Leader::CurrentBest => (&self.state.fitness, true),
+        };
+        let mut leader = 0;
+        for (slot, value) in values.iter().enumerate() {
+            if *value < values[leader] || (last_on_ties && *value == values[leader]) {
+                leader = slot;
+            }
+        }
+        leader
+    }
+
+    /// Moves particle `slot`; it then waits for its fitness, next in turn, unless it `may_estimate` and is estimated.
+    fn move_particle(&mut self, slot: usize, may_estimate: bool) {
+        let leader = self.leader();
+        let (own, leads) = (self.row(slot), self.row(leader));
+        let state = &mut self.state;
+        state.x_before[own.clone()].copy_from_slice(&state.x[own.clone()]);
+        state.v_before[own.clone()].copy_from_slice(&state.v[own.clone()]);
+        let pull = Pull { memory: &state.memory[own.clone()], leader: &state.memory[leads] };
+        let (x, v) = (&mut state.x[own.clone()], &mut state.v[own.clone()]);
+        let weights = fly(&self.spec, &self.space, &pull, x, v, &mut state.rng);
+        let flight = Flight {
+            x: &state.x[own],
+            fitness: state.fitness[slot],
+            memory: state.memory_fitness[slot],
+            leader: state.memory_fitness[leader],
+            weights,
+        };
+        if may_estimate && let Some(fitness) = self.estimator.estimate(&flight, &mut state.rng) {
+            state.fitness[slot] = fitness;
+            state.provenance[slot] = E::PROVENANCE;
+            match E::PROVENANCE {
+                Provenance::Granule => state.tally.granule += 1,
+                _ => state.tally.inherited += 1,
+            }
+            return;
+        }
+        state.waiting.insert(self.handed, Waiting { id: state.next_id, slot });
+        state.next_id += 1;
+    }
+
+    /// Incumbent of fame, stop rules, and the start of the next generation, if every particle has its fitness.
+    fn end_generation_if_settled(&mut self) {
+        let population = self.spec.population as usize;
+        if !self.state.waiting.is_empty() || (self.state.generation > 0 && self.state.moved < population) {
+            return;
+        }
+        let best = self.best_slot();
+        let best_fitness = best.map_or(f64::INFINITY, |slot| self.state.fitness[slot]);
+        if let Some(slot) = best
+            && self.state.hall.as_ref().is_none_or(|hall| best_fitness < hall.fitness)
+        {
+            self.state.hall = Some(self.as_best(slot).into());
+            self.state.last_change = self.state.generation;
+        }
+        let state = &mut self.state;
+        if self.space.target.is_some_and(|target| best_fitness <= target) {
+            state.stop = Some(StopReason::Target);
+        } else if state.generation - state.last_change > u64::from(self.spec.stagnation) {
+            state.stop = Some(StopReason::Stagnation);
+        }
+        state.generation += 1;
+        state.moved = 0;
+        if state.stop.is_none() {
+            self.remember();
+            self.estimator.begin(&self.state.fitness);
+        }
+    }
+
+    fn remember(&mut self) {
+        for slot in 0..self.spec.population as usize {
+            let own = self.row(slot);
+            let state = &mut self.state;
+            if state.generation == 1 {
+                state.memory_fitness[slot] = state.fitness[slot];
+            } else if state.fitness[slot] < state.memory_fitness[slot] {
+                state.memory_fitness[slot] = state.fitness[slot];
+                state.memory[own.clone()].copy_from_slice(&state.x[own]);
+            }
+        }
+    }
+
+    /// The best particle that may win, the last on ties; none if none has a finite fitness.
+    fn best_slot(&self) -> Option<usize> {
+        let may_win = |provenance: Provenance| provenance != E::PROVENANCE || self.estimator.may_win();
+        let (mut best, mut smallest) = (None, f64::INFINITY);
+        for (slot, (&value, &provenance)) in self.state.fitness.iter().zip(&self.state.provenance).enumerate() {
+            if value <= smallest && value < f64::INFINITY && may_win(provenance) {
+                (best, smallest) = (Some(slot), value);
+            }
+        }
+        best
+    }
+
+    fn as_best(&self, slot: usize) -> Best<'_> {
+        let features = self.space.features;
+        Best {
+            joints: &self.state.x[self.row(slot)],
+            fitness: self.state.fitness[slot],
+            observation: &self.state.observations[slot * features..(slot + 1) * features],
+            provenance: self.state.provenance[slot],
+        }
+    }
+
+    /// Proposes another position for a rejected one.
+    fn again(&mut self, slot: usize) {
+        let own = self.row(slot);
+        let state = &mut self.state;
+        if state.generation > 0 {
+            state.x[own.clone()].copy_from_slice(&state.x_before[own.clone()]);
+            state.v[own.clone()].copy_from_slice(&state.v_before[own]);
+            self.move_particle(slot, false); // an estimate would let it pass unjudged
+            return;
+        }
+        for gene in 0..self.space.lower.len() {
+            let drawn = state.rng.between(self.space.lower[gene], self.space.upper[gene]);
+            let place = own.start + gene;
+            state.x[place] = drawn;
+            state.x_before[place] = drawn;
+            if !self.spec.ecf_memory_quirk {
+                state.memory[place] = drawn;
+            }
+        }
+        state.waiting.insert(self.handed, Waiting { id: state.next_id, slot });
+        state.next_id += 1;
+    }
+}
+
+impl<E: Estimator> Optimizer for Swarm<E> {
+    fn ask(&mut self, batch: &mut Batch) {
+        let ahead = self.spec.leader == Leader::BestMemory && !self.estimator.depends_on_order();
+        while self.state.stop.is_none() && !batch.is_full() {
+            if let Some(&Waiting { id, slot }) = self.state.waiting.get(self.handed) {
+                batch.push(id, &self.state.x[self.row(slot)]);
+                self.handed += 1;
+                continue;
+            }
+            let all_moved = self.state.generation == 0 || self.state.moved == self.spec.population as usize;
+            if all_moved || !(ahead || self.state.waiting.is_empty()) {
+                return;
+            }
+            let slot = self.state.moved;
+            self.state.moved += 1;
+            self.move_particle(slot, true);
+            self.end_generation_if_settled();
+        }
+    }
+
+    fn tell(&mut self, id: u64, outcome: Outcome<'_>) {
+        let Some(at) = self.state.waiting.iter().position(|w| w.id == id) else { return };
+        let slot = self.state.waiting.remove(at).slot;
+        self.handed -= usize::from(at < self.handed);
+        let (own, features) = (self.row(slot), self.space.features);
+        let state = &mut self.state;
+        match outcome {
+            Outcome::Observed { fitness, observation, provenance } => {
+                state.fitness[slot] = fitness;
+                state.provenance[slot] = provenance;
+                state.observations[slot * features..(slot + 1) * features].copy_from_slice(observation);
+                if state.generation > 0 {
+                    self.estimator.executed(&state.x[own], fitness);
+                }
+                let early = !self.spec.ecf_target_at_generation_end;
+                if early && self.space.target.is_some_and(|target| fitness <= target) {
+                    state.stop = Some(StopReason::Target);
+                    return;
+                }
+            }
+            Outcome::Penalised { fitness } => {
+                state.fitness[slot] = fitness;
+                state.provenance[slot] = Provenance::Penalised;
+            }
+            Outcome::Failed => {
+                state.fitness[slot] = f64::INFINITY;
+                state.provenance[slot] = Provenance::Penalised;
+            }
+            Outcome::Rejected => self.again(slot),
+        }
+        self.end_generation_if_settled();
+    }
+
+    fn best(&self) -> Option<Best<'_>> {
+        Incumbent::or_better(self.state.hall.as_ref(), self.best_slot().map(|slot| self.as_best(slot)))
+    }
+
+    fn stop(&self) -> Option<StopReason> {
+        self.state.stop
+    }
+
+    fn state(&self) -> OptimizerState {
+        self.estimator.save(self.state.clone())
+    }
+
+    fn generation(&self) -> u64 {
+        self.state.generation
+    }
+
+    fn origins(&self, id: u64) -> [Option<&[f64]>; 2] {
+        let waiting = self.state.waiting.iter().find(|w| w.id == id);
+        let moved = waiting.filter(|_| self.state.generation > 0);
+        [moved.map(|w| &self.state.x_before[self.row(w.slot)]), None]
+    }
+
+    fn amend(&mut self, id: u64, joints: &[f64]) {
+        let Some(slot) = self.state.waiting.iter().find(|w| w.id == id).map(|w| w.slot) else { return };
+        let own = self.row(slot);
+        let state = &mut self.state;
+        state.x[own.clone()].copy_from_slice(joints);
+        if state.generation == 0 {
+            state.x_before[own.clone()].copy_from_slice(joints);
+            if !self.spec.ecf_memory_quirk {
+                state.memory[own].copy_from_slice(joints);
+            }
+            return;
+        }
+        for place in own {
+            state.v[place] = state.x[place] - state.x_before[place];
+        }
+    }
+
+    fn tally(&self) -> Tally {
+        self.state.tally
+    }
+}

@@ -1,0 +1,302 @@
+//! MODEL-IET: one Gaussian process of the feature map, shared by all goals, decides every trial.
+//!
+//! Identification moves first (nothing known), then, goal by goal, the pose whose predicted features come nearest
+//! while the model is still sure of them. A goal ends when a measured pose is within the tolerance, when the model
+//! expects no improvement even optimistically (out of reach), or after [`ModelSpec::max_tries`].
+//!
+//! Sources: R. Astudillo, P. Frazier, "Bayesian Optimization of Composite Functions", ICML 2019; M. Deisenroth,
+//! C. Rasmussen, PILCO, ICML 2011; K. Chatzilygeroudis et al., Black-DROPS, IROS 2017; A. Cully et al., "Robots that
+//! can adapt like animals", Nature 521 (2015), DOI 10.1038/nature14422.
+
+mod belief;
+mod columns;
+mod kernel;
+mod process;
+mod shortlist;
+#[cfg(test)]
+pub(super) mod tests;
+
+use super::distance::distance;
+use super::space::Space;
+use super::{FeatureMap, Outcome, Proposal, Trial, WholeRun};
+use crate::random::RandomStream;
+use belief::{Aim, Belief};
+use serde::{Deserialize, Serialize};
+use shortlist::{Starts, nearest_by_prior};
+use utoipa::ToSchema;
+
+/// How many of the measured poses nearest to a goal are searched around.
+const LOCAL_CENTRES: usize = 3;
+
+/// Weight of the predicted variance while a goal has had fewer than [`CAUTIOUS_TRIES`] trials, and after.
+const CAUTION: f64 = 0.1;
+const LATE_CAUTION: f64 = 0.02;
+const CAUTIOUS_TRIES: u32 = 4;
+
+/// What a method believes before its first trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Prior {
+    /// Nothing: identification moves come first.
+    #[default]
+    None,
+    /// The problem's robot and world as described, which the real ones need not match.
+    Simulator,
+}
+
+/// Parameters of MODEL-IET.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ModelSpec {
+    /// Standard deviation of one observed feature, features' unit; 0 for a world that is exact.
+    pub noise: f64,
+    /// A goal is given up after this many trials of its own.
+    pub max_tries: u32,
+    /// Size of the identification moves, degrees (of 180 a stroke for prismatic joints).
+    pub identification_deg: f64,
+    /// Largest step of a joint from one trial to the next, degrees (likewise); none where the robot needs none.
+    pub max_step_deg: Option<f64>,
+    /// What is believed before the first trial.
+    pub prior: Prior,
+}
+
+impl Default for ModelSpec {
+    fn default() -> Self {
+        Self { noise: 0.0, max_tries: 15, identification_deg: 45.0, max_step_deg: None, prior: Prior::None }
+    }
+}
+
+/// A goal that is still worth a trial.
+struct Open {
+    index: usize,
+    tries: u32,
+    /// B, the smallest distance measured so far.
+    best: f64,
+    /// The improvement a trial must promise.
+    need: f64,
+}
+
+/// A run of MODEL-IET.
+pub struct ModelIet {
+    spec: ModelSpec,
+    tolerance: f64,
+    space: Space,
+    goals: Vec<Vec<f64>>,
+    prior: Option<Box<dyn FeatureMap>>,
+    earlier: Vec<Trial>,
+    log: Vec<Trial>,
+    seed: u64,
+}
+
+impl ModelIet {
+    /// A run for `goals` (n rows of m features) over `space`; a goal is reached within `tolerance` (features' unit).
+    #[must_use]
+    pub fn new(spec: ModelSpec, tolerance: f64, space: Space, goals: Vec<Vec<f64>>, seed: u64) -> Self {
+        Self { spec, tolerance, space, goals, prior: None, earlier: Vec::new(), log: Vec::new(), seed }
+    }
+
+    /// With a simulator as the prior mean.
+    #[must_use]
+    pub fn with_prior(mut self, prior: Box<dyn FeatureMap>) -> Self {
+        self.prior = Some(prior);
+        self
+    }
+
+    /// With the trials of earlier runs on the same robot.
+    #[must_use]
+    pub fn with_earlier(mut self, earlier: Vec<Trial>) -> Self {
+        self.earlier = earlier;
+        self
+    }
+
+    fn identification_count(&self) -> usize {
+        let nothing_known = self.prior.is_none() && self.earlier.iter().all(|t| t.observation.is_none());
+        if nothing_known { self.space.len() + 1 } else { 0 }
+    }
+
+    fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> Proposal {
+        let mut random = RandomStream::of_run(self.seed, self.log.len() as u64 + 1);
+        let logs = [self.earlier.as_slice(), self.log.as_slice()];
+        if self.log.iter().chain(&self.earlier).all(|t| t.observation.is_none()) {
+            let blind = self.log.len() >= identification + self.spec.max_tries as usize;
+            if blind {
+                return Proposal::Finished;
+            }
+            let prior = prior.as_deref_mut();
+            let joints = nearest_by_prior(&self.space, &self.goals[0], prior, !self.log.is_empty(), &mut random);
+            return Proposal::Execute { joints, goal: 0 };
+        }
+        let Some(mut belief) = Belief::fit(&self.space, logs, &self.goals, prior, self.spec.noise) else {
+            return Proposal::Finished;
+        };
+        let open = self.open_goals(identification, &mut belief);
+        let mut starts = Starts::new(&self.space, &mut belief, &mut random);
+        let mut chosen: Option<(f64, Vec<f64>, usize)> = None;
+        for goal in &open {
+            let Some((rank, joints)) = self.sure_pose(goal, &mut starts, &mut belief, &mut random) else { continue };
+            if chosen.as_ref().is_none_or(|c| rank < c.0) {
+                chosen = Some((rank, joints, goal.index));
+            }
+        }
+        if chosen.is_none() {
+            for goal in &open {
+                if let Some(joints) = self.hopeful_pose(goal, &mut starts, &mut belief, &mut random) {
+                    chosen = Some((0.0, joints, goal.index));
+                    break;
+                }
+            }
+        }
+        if let Some((_, joints, goal)) = chosen {
+            return Proposal::Execute { joints, goal };
+        }
+        Proposal::Finished
+    }
+
+    /// What was seen at each own trial, one row of m each: with noise what the model makes of it. None where the
+    /// observation was lost.
+    fn seen(&self, belief: &mut Belief) -> Vec<Option<Vec<f64>>> {
+        let mut denoised = |trial: &Trial| {
+            let observed = trial.observation.clone()?;
+            if self.spec.noise == 0.0 {
+                return Some(observed);
+            }
+            belief.predict_mean(&trial.joints);
+            Some(belief.mean.clone())
+        };
+        self.log.iter().map(&mut denoised).collect()
+    }
+
+    /// B: the smallest distance of what was `seen` to the goal, and at which trial.
+    fn best(&self, goal: usize, seen: &[Option<Vec<f64>>]) -> (Option<usize>, f64) {
+        let mut best = (None, f64::INFINITY);
+        for (index, observed) in seen.iter().enumerate() {
+            let Some(observed) = observed else { continue };
+            let miss = distance(observed, &self.goals[goal]);
+            if miss < best.1 {
+                best = (Some(index), miss);
+            }
+        }
+        best
+    }
+
+    /// Trials of a goal's own.
+    fn tries(&self, identification: usize, goal: usize) -> u32 {
+        self.log.iter().skip(identification).filter(|t| t.goal == goal).fold(0, |n, _| n + 1)
+    }
+
+    /// The goals still worth a trial: not reached, tries left.
+    fn open_goals(&self, identification: usize, belief: &mut Belief) -> Vec<Open> {
+        let seen = self.seen(belief);
+        let mut open = Vec::with_capacity(self.goals.len());
+        for index in 0..self.goals.len() {
+            let tries = self.tries(identification, index);
+            let (_, best) = self.best(index, &seen);
+            if best + self.spec.noise.min(0.1 * self.tolerance) > self.tolerance && tries < self.spec.max_tries {
+                let need = (0.25 * self.tolerance).max(0.02 * best);
+                open.push(Open { index, tries, best, need });
+            }
+        }
+        open
+    }
+
+    /// The pose expected nearest to the goal among those the model is sure of, if it improves enough; with the squared
+    /// distance expected.
+    fn sure_pose(
+        &self,
+        goal: &Open,
+        starts: &mut Starts,
+        belief: &mut Belief,
+        random: &mut RandomStream,
+    ) -> Option<(f64, Vec<f64>)> {
+        let target = self.goals[goal.index].as_slice();
+        let sure = Aim { goal: target, caution: if goal.tries < CAUTIOUS_TRIES { CAUTION } else { LATE_CAUTION } };
+        let poses = self.search(starts, sure, belief, random);
+        let nearest = poses.into_iter().map(|pose| (belief.score(&pose, sure), pose));
+        let (_, pose) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let variance = belief.predict(&pose);
+        let miss = distance(&belief.mean, target);
+        if goal.best - miss < goal.need {
+            return None;
+        }
+        Some((miss * miss + target.len() as f64 * variance, pose))
+    }
+
+    /// The pose that, looked at optimistically, improves the goal enough.
+    fn hopeful_pose(
+        &self,
+        goal: &Open,
+        starts: &mut Starts,
+        belief: &mut Belief,
+        random: &mut RandomStream,
+    ) -> Option<Vec<f64>> {
+        let target = self.goals[goal.index].as_slice();
+        let hopeful = Aim { goal: target, caution: -0.25 };
+        let mut hope = (f64::INFINITY, None);
+        for pose in self.search(starts, hopeful, belief, random) {
+            let variance = belief.predict(&pose);
+            let value = distance(&belief.mean, target) - 0.5 * (target.len() as f64 * variance).sqrt();
+            if value < hope.0 {
+                hope = (value, Some(pose));
+            }
+        }
+        hope.1.filter(|_| hope.0 < goal.best - goal.need)
+    }
+
+    /// Refined poses, some found around the measured ones nearest to the goal.
+    fn search(&self, starts: &mut Starts, aim: Aim, belief: &mut Belief, random: &mut RandomStream) -> Vec<Vec<f64>> {
+        let trials = self.earlier.iter().chain(&self.log);
+        let measured = |t: &'_ Trial| Some(distance(t.observation.as_deref()?, aim.goal));
+        let mut nearest: Vec<(f64, &[f64])> =
+            trials.filter_map(|t| Some((measured(t)?, t.joints.as_slice()))).collect();
+        nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let centres: Vec<&[f64]> = nearest.iter().take(LOCAL_CENTRES).map(|near| near.1).collect();
+        starts.search(&self.space, aim, &centres, belief, random)
+    }
+}
+
+impl WholeRun for ModelIet {
+    fn ask(&mut self) -> Proposal {
+        let identification = self.identification_count();
+        if self.log.len() < identification {
+            let step = self.spec.identification_deg.to_radians();
+            let pose = self.space.identification(self.log.len(), step);
+            if let Some(joints) = pose.filter(|p| self.space.allows(p)) {
+                return Proposal::Execute { joints, goal: 0 };
+            }
+        }
+        let mut prior = self.prior.take();
+        let proposal = self.ask_model(identification, prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap));
+        self.prior = prior;
+        proposal
+    }
+
+    fn tell(&mut self, trial: Trial) {
+        self.log.push(trial);
+    }
+
+    fn log(&self) -> &[Trial] {
+        &self.log
+    }
+
+    fn outcomes(&mut self) -> Vec<Outcome> {
+        let mut prior = self.prior.take();
+        let logs = [self.earlier.as_slice(), self.log.as_slice()];
+        let map = prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap);
+        let outcomes = Belief::fit(&self.space, logs, &self.goals, map, self.spec.noise).map(|mut belief| {
+            let seen = self.seen(&mut belief);
+            (0..self.goals.len())
+                .map(|goal| {
+                    let (trial, miss) = self.best(goal, &seen);
+                    Outcome { trial, distance: miss, reached: miss <= self.tolerance }
+                })
+                .collect()
+        });
+        self.prior = prior;
+        let nothing = Outcome { trial: None, distance: f64::INFINITY, reached: false };
+        outcomes.unwrap_or_else(|| vec![nothing; self.goals.len()])
+    }
+
+    fn is_used_up(&self, goal: usize) -> bool {
+        self.tries(self.identification_count(), goal) >= self.spec.max_tries
+    }
+}

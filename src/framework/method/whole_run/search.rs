@@ -1,0 +1,201 @@
+//! SEARCH-IET: an accumulating effect with nothing known, by search theory.
+//!
+//! What has not been affected cannot lie inside the capture ball of a past trial: each trial thins the survival
+//! `surv(x)` of the poses around it, gains raise the expectation of the poses near them, and the next trial is the
+//! unused pose with the largest expected gain: `sum_x B_z surv num/den / sum_x B_z`.
+//!
+//! Symbols: Sobol poses x, z; distance |z - x| in degrees; ball `B_z(x) = exp(-(|z-x|/r)^2)`; `k = exp(-d^2 / 2 l^2)`;
+//! num and den begin at `(1 + 1/3 - u^2) / 4` and 1, u^2 the mean square of the joints' places in their ranges (-1..1),
+//! because a robot is mounted so that its work lies amid its ranges. Where the cells are seen, the expected gain is
+//! multiplied by the chance that a pose leads to an unpainted cell ([`super::surface::cell_predictor`]).
+//!
+//! Tried on seeds 1 to 80 (evaluations to 15 of 16 squares): balls with a flat top, exponent 4 (85; this one 77), the
+//! preference for the middle (68 with it), l and r of 20 and 9 degrees for 25 and 10 (58 with it). Of no use were one
+//! scale a joint, more or fewer misses before the balls shrink, and an unknown serial arm inferred by Markov chains.
+//!
+//! Source: L. Stone, Theory of Optimal Search, Academic Press 1975.
+
+use super::space::{Axis, Space};
+use super::surface::cell_predictor::{CellPredictor, Grid};
+use super::surface::cover::{CoverSpec, Ledger};
+use super::surface::sobol;
+use super::{Outcome, Proposal, Trial, WholeRun};
+use crate::random::RandomStream;
+
+const RADIUS_DEG: f64 = 9.0;
+const LENGTH_DEG: f64 = 20.0;
+const PRIOR_HITS: f64 = 0.25;
+const PRIOR_TRIALS: f64 = 1.0;
+/// Beyond this squared share of the radius a ball ends.
+const FAR: f64 = 4.0;
+/// A gain that was not kept leaves this share of its pose's survival.
+const REFUSED: f64 = 0.2;
+const MISSES: u32 = 30;
+const SHRINK: f64 = 0.85;
+
+/// By how much a pose is nearer to the middle of the joints' ranges than poses are on average, in -2/3..1/3.
+fn amid(space: &Space, pose: &[f64]) -> f64 {
+    let square = |(axis, q): (&Axis, &f64)| {
+        let width = axis.upper - axis.lower;
+        if width > 0.0 { ((2.0 * q - axis.lower - axis.upper) / width).powi(2) } else { 1.0 / 3.0 }
+    };
+    1.0 / 3.0 - space.axes.iter().zip(pose).map(square).sum::<f64>() / space.len().max(1) as f64
+}
+
+/// A run of SEARCH-IET.
+pub struct SearchIet {
+    ledger: Ledger,
+    poses: Vec<Vec<f64>>,
+    scale: Vec<f64>,
+    used: Vec<bool>,
+    surv: Vec<f64>,
+    num: Vec<f64>,
+    den: Vec<f64>,
+    radius: f64,
+    misses: u32,
+    verdicts: Vec<(usize, bool, bool)>,
+    /// Where poses lead, where cells are seen.
+    predictor: Option<CellPredictor>,
+    /// Per pose the poses in its ball, with B.
+    near: Vec<Vec<(u32, f64)>>,
+}
+
+impl SearchIet {
+    /// A run for `goals` (n rows, the share in the first column) over `space`; `grid` where the cells are seen.
+    #[must_use]
+    pub fn new(
+        spec: CoverSpec,
+        resets: bool,
+        grid: Option<Grid>,
+        space: &Space,
+        goals: &[Vec<f64>],
+        seed: u64,
+    ) -> Self {
+        let mut random = RandomStream::of_run(seed, 0);
+        let poses = sobol::poses(space, spec.poses as usize, &mut random);
+        let count = poses.len();
+        let mut run = Self {
+            ledger: Ledger::new(spec, resets, goals),
+            scale: space.axes.iter().map(|a| a.scale().to_degrees()).collect(),
+            predictor: grid.map(CellPredictor::new),
+            used: vec![false; count],
+            surv: vec![1.0; count],
+            num: poses.iter().map(|pose| PRIOR_HITS * (1.0 + amid(space, pose))).collect(),
+            den: vec![PRIOR_TRIALS; count],
+            poses,
+            radius: RADIUS_DEG,
+            misses: 0,
+            verdicts: Vec::new(),
+            near: Vec::new(),
+        };
+        run.find_near();
+        run
+    }
+
+    fn find_near(&mut self) {
+        let ball = |z: &Vec<f64>, x: &Vec<f64>| self.ball(self.squared(z, x));
+        let row = |z: &Vec<f64>| {
+            let all = (0_u32..).zip(&self.poses).map(|(x, pose)| (x, ball(z, pose)));
+            all.filter(|(_, b)| *b > 0.0).collect::<Vec<_>>()
+        };
+        self.near = self.poses.iter().map(row).collect();
+    }
+
+    fn squared(&self, a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(&self.scale).map(|((x, y), s)| ((x - y) * s).powi(2)).sum()
+    }
+
+    fn ball(&self, squared: f64) -> f64 {
+        let ratio = squared / (self.radius * self.radius);
+        if ratio > FAR { 0.0 } else { (-ratio).exp() }
+    }
+
+    fn thin(&mut self, nearest: usize, ball: &[f64], hit: bool, accepted: bool) {
+        if hit && !accepted {
+            self.surv[nearest] *= REFUSED;
+        } else {
+            self.surv.iter_mut().zip(ball).for_each(|(s, b)| *s *= 1.0 - b);
+        }
+    }
+
+    fn rebuild(&mut self) {
+        self.find_near();
+        self.surv.fill(1.0);
+        for (nearest, hit, accepted) in self.verdicts.clone() {
+            let centre = self.poses[nearest].clone();
+            let ball: Vec<f64> = self.poses.iter().map(|x| self.ball(self.squared(&centre, x))).collect();
+            self.thin(nearest, &ball, hit, accepted);
+        }
+    }
+}
+
+impl WholeRun for SearchIet {
+    fn ask(&mut self) -> Proposal {
+        if self.ledger.is_over() {
+            return Proposal::Finished;
+        }
+        let mut expected: Vec<f64> = (0..self.poses.len()).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
+        let chances = self.predictor.as_ref().and_then(|s| s.chances(&self.poses, |a, b| self.squared(a, b)));
+        if let Some(chances) = chances {
+            expected.iter_mut().zip(chances).for_each(|(e, chance)| *e *= chance);
+        }
+        let mut best = (f64::NEG_INFINITY, None);
+        for z in (0..self.poses.len()).filter(|&z| !self.used[z]) {
+            let (mut sum, mut weight) = (0.0, 0.0);
+            for &(x, b) in &self.near[z] {
+                sum += b * expected[x as usize];
+                weight += b;
+            }
+            if sum / weight > best.0 {
+                best = (sum / weight, Some(z));
+            }
+        }
+        best.1.map_or(Proposal::Finished, |z| self.ledger.propose(self.poses[z].clone()))
+    }
+
+    fn tell(&mut self, trial: Trial) {
+        let joints = trial.joints.clone();
+        let verdict = self.ledger.tell(trial);
+        let squared: Vec<f64> = self.poses.iter().map(|x| self.squared(&joints, x)).collect();
+        let nearest = (0..self.poses.len()).min_by(|&a, &b| squared[a].total_cmp(&squared[b]));
+        let Some(nearest) = nearest else { return };
+        self.used[nearest] = true;
+        let Some(gain) = verdict.gain else { return };
+        if let (Some(predictor), Some(fresh)) = (&mut self.predictor, &verdict.fresh) {
+            predictor.tell(&joints, fresh, verdict.accepted);
+        }
+        let ball: Vec<f64> = squared.iter().map(|&s| self.ball(s)).collect();
+        let total: f64 = ball.iter().sum();
+        let available = ball.iter().zip(&self.surv).map(|(b, s)| b * s).sum::<f64>() / total.max(f64::MIN_POSITIVE);
+        for (i, s) in squared.iter().enumerate() {
+            let k = (-s / (2.0 * LENGTH_DEG * LENGTH_DEG)).exp();
+            self.num[i] += gain.max(0.0) * k;
+            self.den[i] += available * k;
+        }
+        let hit = gain > 0.5;
+        self.verdicts.push((nearest, hit, verdict.accepted));
+        self.thin(nearest, &ball, hit, verdict.accepted);
+        self.misses = if hit { 0 } else { self.misses + 1 };
+        if self.misses >= MISSES {
+            self.misses = 0;
+            self.radius *= SHRINK;
+            self.rebuild();
+        }
+    }
+
+    fn log(&self) -> &[Trial] {
+        &self.ledger.log
+    }
+
+    fn accepted(&self) -> &[usize] {
+        &self.ledger.accepted
+    }
+
+    fn outcomes(&mut self) -> Vec<Outcome> {
+        self.ledger.outcomes()
+    }
+
+    fn is_used_up(&self, _: usize) -> bool {
+        self.ledger.is_used_up()
+    }
+}

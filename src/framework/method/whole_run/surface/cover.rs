@@ -1,0 +1,143 @@
+//! The bookkeeping of effects that accumulate (a share of a surface): what each trial gained, what was accepted.
+//!
+//! A gain is counted in steps of the action: the smallest rise between goals is 1. Where the world can be put back, a
+//! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
+//! trial stays. The goal pointer is the first goal above what is observed.
+
+use crate::method::whole_run::{Outcome, Proposal, Trial};
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// How a run over an accumulating effect ends.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CoverSpec {
+    /// The run gives up after this many trials.
+    pub max_evaluations: u32,
+    /// Poses to choose from, spread evenly over the joints' ranges (1 to 4096).
+    pub poses: u32,
+    /// Largest step of a joint from one trial to the next, degrees (of 180 a stroke for prismatic joints); none where
+    /// the robot needs none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_step_deg: Option<f64>,
+}
+
+impl Default for CoverSpec {
+    fn default() -> Self {
+        Self { max_evaluations: 400, poses: 2048, max_step_deg: None }
+    }
+}
+
+/// The log of a run with what it amounts to.
+#[derive(Debug, Clone)]
+pub(in crate::method::whole_run) struct Ledger {
+    spec: CoverSpec,
+    /// Whether the world is put back between trials.
+    resets: bool,
+    goals: Vec<f64>,
+    step: f64,
+    pub log: Vec<Trial>,
+    /// Indices of the accepted trials, in order.
+    pub accepted: Vec<usize>,
+    /// What the world shows after the accepted trials, features' unit.
+    level: f64,
+    /// The cells it shows then, where cells are seen.
+    cells: Vec<u64>,
+    /// The first trial that left the world as it was at the start.
+    idle: Option<usize>,
+    straight_overshoots: u32,
+}
+
+/// What a trial amounted to.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::method::whole_run) struct Verdict {
+    /// Steps gained over the accepted trials; none when the observation was lost.
+    pub gain: Option<f64>,
+    /// The cells gained, 64 a word; none where they are not seen.
+    pub fresh: Option<Vec<u64>>,
+    pub accepted: bool,
+}
+
+/// How many of `cells` are not in `painted`.
+pub(in crate::method::whole_run) fn fresh_count(cells: &[u64], painted: &[u64]) -> u32 {
+    cells.iter().zip(painted).map(|(c, p)| (c & !p).count_ones()).sum()
+}
+
+impl Ledger {
+    pub fn new(spec: CoverSpec, resets: bool, goals: &[Vec<f64>]) -> Self {
+        let goals: Vec<f64> = goals.iter().map(|g| g[0]).collect();
+        let rises = goals.windows(2).map(|w| w[1] - w[0]).filter(|r| *r > 1e-9);
+        let step = rises.fold(f64::INFINITY, f64::min);
+        let step = if step.is_finite() { step } else { 1.0 };
+        let level = goals.first().copied().unwrap_or(0.0).min(0.0);
+        Self {
+            spec,
+            resets,
+            goals,
+            step,
+            log: Vec::new(),
+            accepted: Vec::new(),
+            level,
+            cells: Vec::new(),
+            idle: None,
+            straight_overshoots: 0,
+        }
+    }
+
+    /// The first goal above what the world shows; none when all are reached.
+    pub fn goal(&self) -> Option<usize> {
+        self.goals.iter().position(|g| *g > self.level + 1e-6 * self.step)
+    }
+
+    pub fn is_over(&self) -> bool {
+        self.goal().is_none() || self.is_used_up()
+    }
+
+    /// Whether the run's trials are used up.
+    pub fn is_used_up(&self) -> bool {
+        self.log.len() >= self.spec.max_evaluations as usize
+    }
+
+    pub fn propose(&self, joints: Vec<f64>) -> Proposal {
+        self.goal().map_or(Proposal::Finished, |goal| Proposal::Execute { joints, goal })
+    }
+
+    pub fn tell(&mut self, trial: Trial) -> Verdict {
+        let seen = trial.observation.as_ref().map(|o| o[0]);
+        let gain = seen.map(|s| (s - self.level) / self.step);
+        let one = gain.is_some_and(|g| (g - 1.0).abs() < 0.5);
+        let more = gain.is_some_and(|g| g >= 1.5);
+        let accepted = !self.resets || one || (more && self.straight_overshoots >= 2);
+        let before = |word: usize| self.cells.get(word).copied().unwrap_or(0);
+        let fresh = |cells: &Vec<u64>| cells.iter().enumerate().map(|(word, c)| c & !before(word)).collect();
+        let fresh: Option<Vec<u64>> = trial.cells.as_ref().map(fresh);
+        if self.accepted.is_empty() && gain.is_some_and(|g| g.abs() < 0.5) {
+            self.idle = self.idle.or(Some(self.log.len()));
+        }
+        if accepted {
+            self.accepted.push(self.log.len());
+            self.level = seen.unwrap_or(self.level);
+            if let Some(cells) = &trial.cells {
+                self.cells.clone_from(cells);
+            }
+        }
+        self.straight_overshoots = if more && !accepted { self.straight_overshoots + 1 } else { 0 };
+        self.log.push(trial);
+        Verdict { gain, fresh, accepted }
+    }
+
+    /// For each goal the first accepted trial that shows it or more, the last one where none does; for goals that hold
+    /// at the start, a trial that changed nothing.
+    pub fn outcomes(&self) -> Vec<Outcome> {
+        let seen = |index: usize| self.log[index].observation.as_ref().map(|o| o[0]);
+        let kept = self.idle.iter().chain(&self.accepted);
+        let shown: Vec<(usize, f64)> = kept.filter_map(|&i| Some((i, seen(i)?))).collect();
+        let slack = 1e-6 * self.step;
+        let of = |goal: f64| {
+            let found = shown.iter().find(|s| s.1 >= goal - slack).or(shown.last());
+            let distance = found.map_or(f64::INFINITY, |s| (s.1 - goal).abs());
+            Outcome { trial: found.map(|s| s.0), distance, reached: distance < 0.5 * self.step }
+        };
+        self.goals.iter().map(|&goal| of(goal)).collect()
+    }
+}
