@@ -5,9 +5,8 @@
 use cgda::framework::execution::Iet;
 use cgda::framework::method::whole_run::{ModelIet, ModelSpec, Space, Trial, WholeRun};
 use cgda::framework::preset::shipped;
+use cgda::framework::random::RandomStream;
 use divan::{Bencher, black_box};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 
 fn main() {
     divan::main();
@@ -22,7 +21,7 @@ fn after(trials: usize, noise: f64) -> ModelIet {
     let goals = problem.goals.rows().map(<[f64]>::to_vec).collect();
     let spec = ModelSpec { noise, ..ModelSpec::default() };
     let mut run = ModelIet::new(spec, 1.0, space.clone(), goals, 1);
-    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let mut random = RandomStream::of_run(1, 0);
     for goal in (0..problem.goals.len()).cycle().take(trials) {
         let (mut joints, mut seen) = (space.home(), vec![0.0; 3]);
         space.uniform(&mut random, &mut joints);
