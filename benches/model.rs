@@ -1,6 +1,6 @@
-//! One proposal of MODEL-IET: seven joints, three features, nine goals all open, after 20, 40 and 60 trials.
+//! One proposal of MODEL-IET: seven joints, three features, nine open goals, after 20, 40 and 60 trials.
 //!
-//! `cargo bench --bench model`: a proposal must not keep a robot waiting; 20 ms after 60 trials is the bound.
+//! `cargo bench --bench model`: a proposal must not keep a robot waiting; the bound is 20 ms after 60 trials.
 
 use cgda::framework::execution::Iet;
 use cgda::framework::method::whole_run::{ModelIet, ModelSpec, Space, Trial, WholeRun};
@@ -12,7 +12,7 @@ fn main() {
     divan::main();
 }
 
-/// A run that has measured `trials` poses spread over the box, none of them near a goal.
+/// A run after `trials` measured poses, spread over the box and none of them near a goal.
 fn after(trials: usize, noise: f64) -> ModelIet {
     let problem = shipped("circle-seven-joints").expect("the preset is shipped").problem;
     let iet = Iet::new(&problem, 1).expect("the preset can be run");

@@ -1,8 +1,8 @@
-//! One wax evaluation: incremental (one forward kinematics, one DTW row) beside recomputing everything (nine forward
+//! One wax evaluation: incremental (one forward kinematics, one DTW row) against full recomputation (nine forward
 //! kinematics, the whole DTW matrix), and a whole SST run.
 //!
-//! `cargo bench --bench wax`: the ratio of the two medians is the gain of IET's incremental form; items a second are
-//! evaluations a second on one core.
+//! `cargo bench --bench wax`: the ratio of the two medians is the gain of IET's incremental form; items per second are
+//! evaluations per second on one core.
 
 use cgda::framework::execution::{PartialDiscrepancy, Problem, run};
 use cgda::framework::preset::shipped;
@@ -12,7 +12,7 @@ use cgda::framework::world::{self, World};
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 
-/// Evaluations in one timed sample.
+/// Evaluations per timed sample.
 const POSES: usize = 1024;
 
 fn main() {
@@ -24,7 +24,7 @@ fn main() {
     divan::main();
 }
 
-/// The last goal of wax: eight goals observed, the ninth searched.
+/// The last goal of wax: eight goals are observed, the ninth is searched.
 struct Both {
     problem: Problem,
     world: Box<dyn World>,
@@ -87,7 +87,7 @@ fn full_recomputation(bencher: Bencher<'_, '_>) {
     bench(bencher, Both::whole);
 }
 
-/// The optimiser included: about 9700 evaluations a run.
+/// Including the optimiser: about 9700 evaluations per run.
 #[divan::bench(sample_count = 20)]
 fn whole_sst_run(bencher: Bencher<'_, '_>) {
     let problem = shipped("paper-wax").expect("paper-wax is shipped").problem;

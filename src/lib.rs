@@ -2,19 +2,19 @@
 //! trajectory with which a given robot produces the same effects (Incrementally Evolved Trajectories).
 //!
 //! # The map
-//! | folder | what lives there | may import |
+//! | folder | content | may import |
 //! |---|---|---|
 //! | [`framework`] | CGDA itself: pure science, no I/O; the package `cgda-core` | nothing of ours |
-//! | [`app`] | the one service layer: use-cases and ports | `framework` |
-//! | [`store`], [`evaluate`], [`jobs`] | what the ports are plugged into | `app`, `framework` |
+//! | [`app`] | the one service layer: use cases and ports | `framework` |
+//! | [`store`], [`evaluate`], [`jobs`] | implementations of the ports | `app`, `framework` |
 //! | [`http`], [`grpc`] | thin edges: extract, one `app` call, convert | `app`, value types of `framework` |
 //! | [`config`], [`telemetry`], [`lifecycle`], [`cli`] | wiring | everything |
 //!
 //! # Architecture Invariants
-//! - `framework` never reads a clock, a file, the environment or a global random source, and never logs: the same
-//!   input and seed give the same bits, also after kill and resume and on any number of threads.
-//! - `http` and `grpc` never reach `store`, and never each other: a use-case is written once, in `app`.
-//! - SI units and radians inside; a unit stands in every name that crosses a boundary.
+//! - `framework` never reads a clock, a file, the environment or a global random source, and never logs: the same input
+//!   and seed give the same bits, after a kill and resume and on any number of threads.
+//! - `http` and `grpc` never access `store` or each other: a use case is written once, in `app`.
+//! - SI units and radians inside; every name that crosses a boundary carries its unit.
 //!
 //! `tests/tidy.rs` enforces these.
 

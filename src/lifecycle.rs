@@ -1,4 +1,4 @@
-//! Start-up gates, the accept loop, signals: what a server needs around its work.
+//! Start-up gates, the accept loop and signals: the frame around a server's work.
 
 mod accept;
 mod data_dir;
@@ -11,40 +11,40 @@ pub use system::{SystemClock, SystemIds};
 use tokio::signal::unix::{Signal, SignalKind, signal};
 use tokio_util::sync::CancellationToken;
 
-/// Exit code of a start-up gate that did not open (`EX_CONFIG`).
+/// Exit code if a start-up gate stays closed (`EX_CONFIG`).
 pub const EXIT_GATE: u8 = 78;
 
-/// A start-up gate that did not open: the server exits with 78 and this reason.
+/// A start-up gate stayed closed: the server exits with 78 and this reason.
 #[derive(Debug, thiserror::Error)]
-#[error("refused to start: {reason}")]
+#[error("cannot start: {reason}")]
 pub struct GateClosed {
-    /// Which gate, and what to do.
+    /// The gate, and the remedy.
     pub reason: String,
-    /// What it was told.
+    /// Underlying error; `None` if a rule closed the gate.
     #[source]
     pub source: Option<anyhow::Error>,
 }
 
 impl GateClosed {
-    /// A gate that an error keeps closed.
+    /// A gate closed by an error.
     pub fn because(error: impl Into<anyhow::Error>) -> Self {
         let error: anyhow::Error = error.into();
         let reason = error.to_string();
-        // Some errors tell their cause themselves.
+        // Some errors already include their cause in their text.
         let cause = error.source().map(ToString::to_string).filter(|cause| !reason.contains(cause.as_str()));
         Self { reason, source: cause.map(anyhow::Error::msg) }
     }
 
-    /// A gate that stays closed by rule.
+    /// A gate closed by a rule.
     pub fn rule(reason: impl Into<String>) -> Self {
         Self { reason: reason.into(), source: None }
     }
 }
 
-/// Cancelled by SIGTERM or SIGINT; a second signal ends the process at once.
+/// Token that SIGTERM or SIGINT cancels; a second signal ends the process at once.
 ///
 /// # Errors
-/// When the handlers cannot be installed.
+/// If the signal handlers cannot be installed.
 pub fn stop_signal() -> std::io::Result<CancellationToken> {
     let stop = CancellationToken::new();
     let (mut terminate, mut interrupt) = (signal(SignalKind::terminate())?, signal(SignalKind::interrupt())?);

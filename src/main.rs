@@ -1,4 +1,4 @@
-//! The `cgda` binary: parse, set up telemetry, run the command.
+//! The `cgda` binary: parses the arguments and runs the command.
 
 use clap::Parser as _;
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! Logging: one line an event on stderr, readable alone, with dotted fields. stdout belongs to results.
+//! Logging: one self-contained line per event on stderr, with dotted fields. stdout is reserved for results.
 
 use crate::config::{LogConfig, LogFormat};
 use std::io::IsTerminal as _;
@@ -8,7 +8,7 @@ use tracing_subscriber::fmt::Subscriber;
 /// Starts logging.
 ///
 /// # Errors
-/// When the filter cannot be read, or logging runs already.
+/// If the filter cannot be parsed or logging has already been started.
 pub fn start(config: &LogConfig) -> anyhow::Result<()> {
     let filter = EnvFilter::try_new(&config.filter)
         .map_err(|error| anyhow::anyhow!("log.filter is {:?}: {error}", config.filter))?;

@@ -1,4 +1,4 @@
-//! Ingest as a whole: the corpus of bad files, garbage, the forms a file may have, and the shipped demonstrations.
+//! Ingest as a whole: the corpus of bad files, garbage, the accepted formats, and the shipped demonstrations.
 
 #![expect(clippy::unwrap_used, reason = "a test's helper may fail the test")]
 
@@ -17,7 +17,7 @@ fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Files of a folder with the finding code their name begins with: `code--description.extension`.
+/// Files of a folder with the finding code that starts their name: `code--description.extension`.
 fn corpus(folder: &str) -> Vec<(String, PathBuf)> {
     let mut files: Vec<(String, PathBuf)> = std::fs::read_dir(repository().join("tests/fixtures").join(folder))
         .unwrap()
@@ -162,7 +162,7 @@ fn shipped_paint_makes_seventeen_goals_of_one_square_each() {
     }
 }
 
-/// Neither a panic nor an acceptance without samples, nor a refusal without an error.
+/// Checks that reading neither panics, nor accepts input without samples, nor rejects it without an error.
 fn check_contract(bytes: &[u8], options: &ReadOptions) {
     match read(bytes, options) {
         Ok((demonstration, findings)) => {

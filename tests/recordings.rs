@@ -1,4 +1,4 @@
-//! The framework on the recorded demonstrations of `../shared/data`, where present.
+//! The framework on the recorded demonstrations of `../shared/data`, if present.
 
 #![expect(clippy::unwrap_used, reason = "a test's helper may fail the test")]
 

@@ -1,6 +1,6 @@
-//! The rules of the house, enforced: who may import whom, words that may not enter a folder, length of files.
+//! Architecture rules as tests: who may import whom, words forbidden per folder, length of files.
 //!
-//! Each rule lists every violation with file and line, so that one run shows all there is to mend.
+//! Each rule lists every violation with file and line, so that one run shows everything to fix.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, helpers included")]
 
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Longest file a reader should have to scroll through.
+/// Maximum length of a file, lines.
 const MAX_LINES: usize = 500;
 
 /// Folder or file under `src/` -> the modules of this crate it may name. What is not listed here may name everything.
@@ -25,7 +25,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("lifecycle.rs", &["lifecycle"]),
 ];
 
-/// Folder under `src/` -> words that may not stand in its code (comments are not code).
+/// Folder under `src/` -> words forbidden in its code (comments are not code).
 const FORBIDDEN: &[(&str, &[&str])] = &[
     (
         "framework",
@@ -56,11 +56,11 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ("jobs", &["sqlx", "axum", "tonic", "println!", "SystemTime::now"]),
 ];
 
-/// Words that may stand nowhere in `src/`.
+/// Words forbidden everywhere in `src/`.
 const FORBIDDEN_EVERYWHERE: &[&str] =
     &["#[allow(", "#![allow(", "todo!(", "unimplemented!(", "dbg!(", "TODO", "FIXME", "XXX", "/work/"];
 
-/// What may stand at the top of the repository.
+/// Allowed entries at the top of the repository.
 const TOP_LEVEL: &[&str] = &[
     ".ci",
     ".dockerignore",
@@ -160,7 +160,7 @@ fn folders_import_only_what_they_may() {
             violations.extend(strangers.map(|name| format!("{file}:{line}: {place} may not import {name}")));
         }
     }
-    report("imports that cross a wall of the house", &violations);
+    report("forbidden imports", &violations);
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn forbidden_words_stay_out() {
             }
         }
     }
-    report("words that may not stand there", &violations);
+    report("forbidden words", &violations);
 }
 
 #[test]

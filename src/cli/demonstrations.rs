@@ -1,4 +1,4 @@
-//! Demonstration files named on the command line: read, findings told on stderr.
+//! Demonstration files named on the command line: reads them and prints findings to stderr.
 
 use crate::framework::demonstration::{
     ClockPolicy, Demonstration, Finding, Format, ReadOptions, SourceFile, content_hash, duplicate_content,
@@ -9,32 +9,33 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-/// How demonstration files are read.
+/// Options for reading demonstration files.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct ReadArguments {
-    /// Form of the files; found from their content when absent.
+    /// Format of the files; detected from their content if absent.
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Header of the time column; `time`, `time_s`, `t` or `timestamp` when absent.
+    /// Header of the time column; if absent, `time`, `time_s`, `t` and `timestamp` are recognized.
     #[arg(long, value_name = "NAME")]
     time_column: Option<String>,
     /// Unit of a feature; may be repeated.
     #[arg(long = "unit", value_name = "FEATURE=UNIT", value_parser = unit)]
     units: Vec<(String, String)>,
-    /// What happens to clocks of streams (files of one directory) that disagree.
+    /// Treatment of streams (files of one directory) whose clocks disagree.
     #[arg(long, value_enum, default_value_t = ClockPolicy::AsRecorded)]
     clock_policy: ClockPolicy,
 }
 
 fn unit(argument: &str) -> Result<(String, String), String> {
-    let pair = argument.split_once('=').ok_or("give FEATURE=UNIT, for example x=mm")?;
+    let pair = argument.split_once('=').ok_or("write FEATURE=UNIT, for example x=mm")?;
     Ok((pair.0.to_owned(), pair.1.to_owned()))
 }
 
-/// Reads each path as one demonstration: a file is a stream, a directory a bundle of streams.
+/// Reads each path as one demonstration: a file is a single stream, a directory a bundle of streams.
 ///
 /// # Errors
-/// A path that cannot be read, or a file with an error among its findings; all findings are on stderr by then.
+/// A path that cannot be read, or a file with an error among its findings; all findings have been printed to stderr by
+/// then.
 pub fn read_demonstrations(paths: &[PathBuf], arguments: &ReadArguments) -> anyhow::Result<Vec<Demonstration>> {
     let mut demonstrations = Vec::with_capacity(paths.len());
     let mut refused = 0;
@@ -51,7 +52,7 @@ pub fn read_demonstrations(paths: &[PathBuf], arguments: &ReadArguments) -> anyh
         }
     }
     if refused > 0 {
-        bail!("{refused} of {} demonstrations refused, see the findings above", paths.len());
+        bail!("{refused} of {} demonstrations were rejected, see the findings above", paths.len());
     }
     let hashes: Vec<(String, String)> = demonstrations
         .iter()
@@ -92,7 +93,7 @@ fn read_path(path: &Path, arguments: &ReadArguments) -> anyhow::Result<Read> {
     paths.retain(|p| p.is_file() && !file_name(p).starts_with('.'));
     paths.sort();
     if paths.is_empty() {
-        bail!("{} holds no files: a directory is one demonstration, each of its files a stream", path.display());
+        bail!("{} contains no files: a directory is one demonstration with a stream per file", path.display());
     }
     let contents = paths
         .iter()
@@ -104,12 +105,12 @@ fn read_path(path: &Path, arguments: &ReadArguments) -> anyhow::Result<Read> {
 
 fn content(path: &Path, options: &ReadOptions) -> anyhow::Result<Vec<u8>> {
     let limit = options.limits.bytes;
-    // Bounded while it is read: a device or a pipe tells no length.
+    // Bounded while reading, because a device or a pipe has no known length.
     let mut bytes = Vec::new();
     let read = File::open(path).and_then(|file| file.take(limit.saturating_add(1)).read_to_end(&mut bytes));
     let size = read.with_context(|| format!("cannot read {}", path.display()))? as u64;
     if size > limit {
-        bail!("{} has more than the limit of {limit} bytes: split the recording", path.display());
+        bail!("{} exceeds the limit of {limit} bytes: split the recording", path.display());
     }
     Ok(bytes)
 }
@@ -122,13 +123,14 @@ fn folder_name(path: &Path) -> Option<String> {
     path.parent().map(file_name).filter(|name| !name.is_empty())
 }
 
-/// `painted-percentage/demo-1`: folder and file without extension.
+/// Demonstration name: folder and file without extension, as in `painted-percentage/demo-1`.
 fn name(path: &Path) -> String {
     let own = path.file_stem().map_or_else(|| "demonstration".to_owned(), |stem| stem.to_string_lossy().into_owned());
     folder_name(path).map_or_else(|| own.clone(), |folder| format!("{folder}/{own}"))
 }
 
-/// The folder's name where it is that of a known stream (the authors keep one folder a stream), else the file's.
+/// Stream name: the folder's name if it is that of a known stream (the authors keep one folder per stream), else the
+/// file's.
 fn stream(path: &Path) -> String {
     let known = |name: &String| (1..=7).any(|columns| known_features(name, columns).is_some());
     let own = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());

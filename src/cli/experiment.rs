@@ -1,4 +1,4 @@
-//! `cgda experiment`: a matrix of settings from a TOML file, run over all cores, as table and figure.
+//! `cgda experiment`: runs a matrix of settings from a TOML file on all cores; prints a table and writes a figure.
 
 use crate::framework::experiment::figure::{Method, trade_off};
 use crate::framework::experiment::{CellResult, Experiment, ExperimentSpec, RunError, RunId, RunRow, export, run};
@@ -11,24 +11,24 @@ use std::error::Error as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Run an experiment: cells of presets, methods and settings, each for the same seeds.
+/// Run an experiment: cells of presets, methods and settings, all with the same seeds.
 #[derive(Debug, clap::Args)]
 pub struct ExperimentArguments {
-    /// The experiment: a TOML file (docs/experiments.md).
+    /// The experiment: a TOML file (see docs/experiments.md).
     file: PathBuf,
-    /// Runs of each cell, instead of the file's.
+    /// Runs per cell; overrides the file's value.
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..))]
     repetitions: Option<u32>,
-    /// Seed of each cell's first run, instead of the file's.
+    /// Seed of each cell's first run; overrides the file's value.
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
-    /// Threads; all cores when absent. The results do not depend on it.
+    /// Number of threads; all cores if absent. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     threads: Option<u32>,
-    /// Print CSV with every statistic: one line a cell.
+    /// Print CSV with every statistic, one line per cell.
     #[arg(long)]
     csv: bool,
-    /// Write evaluations against discrepancy there, one marker a cell, as SVG.
+    /// Write a figure of evaluations against discrepancy to this file, as SVG with one marker per cell.
     #[arg(long, value_name = "SVG")]
     figure: Option<PathBuf>,
 }
@@ -36,7 +36,7 @@ pub struct ExperimentArguments {
 /// Runs the experiment and prints its table.
 ///
 /// # Errors
-/// A file that is no experiment, a cell that cannot be executed, a figure that cannot be written.
+/// The file is not a valid experiment, a cell cannot be executed, or the figure cannot be written.
 pub fn run_command(arguments: &ExperimentArguments) -> anyhow::Result<()> {
     let spec = read(&arguments.file)?;
     let spec = ExperimentSpec {
@@ -59,16 +59,16 @@ pub fn run_command(arguments: &ExperimentArguments) -> anyhow::Result<()> {
 
 fn read(path: &Path) -> anyhow::Result<ExperimentSpec> {
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    toml::from_str(&text).with_context(|| format!("{} is no valid experiment", path.display()))
+    toml::from_str(&text).with_context(|| format!("{} is not a valid experiment", path.display()))
 }
 
-/// A run without a row, and why.
+/// A run that could not be finished, with the reason.
 pub(super) type Lost = (RunId, RunError);
 
-/// Names every lost run.
+/// Reports every lost run on stderr.
 ///
 /// # Errors
-/// The first one, where no run was finished.
+/// The first one, if no run finished.
 fn report(lost: &[Lost], experiment: &Experiment) -> anyhow::Result<()> {
     for (_, error) in lost {
         let cause = error.source().map_or_else(String::new, |cause| format!(": {cause}"));
@@ -78,7 +78,7 @@ fn report(lost: &[Lost], experiment: &Experiment) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Counts lost runs as invalid ones of their cells.
+/// Counts lost runs as invalid runs of their cells.
 fn count(lost: &[Lost], table: &mut [CellResult]) {
     for (id, _) in lost {
         if let Some(cell) = table.get_mut(id.cell as usize) {
@@ -88,10 +88,10 @@ fn count(lost: &[Lost], table: &mut [CellResult]) {
     }
 }
 
-/// Runs what is pending on `threads` threads (all cores when absent); answers the runs that could not be finished.
+/// Executes the pending runs on `threads` threads (all cores if `None`) and returns those that could not be finished.
 ///
 /// # Errors
-/// No threads, or a row that is not of the plan.
+/// The threads cannot be started, or a row does not belong to the plan.
 pub(super) fn finish(experiment: &mut Experiment, threads: Option<u32>) -> anyhow::Result<Vec<Lost>> {
     let pending: Vec<RunId> = experiment.pending().collect();
     let bar = ProgressBar::new(pending.len() as u64);
@@ -110,14 +110,14 @@ pub(super) fn finish(experiment: &mut Experiment, threads: Option<u32>) -> anyho
     Ok(lost)
 }
 
-/// Evaluations against discrepancy of every cell in which a run counts.
+/// Evaluations against discrepancy for every cell with at least one valid run, as SVG.
 fn figure(experiment: &Experiment) -> anyhow::Result<String> {
     let plan = experiment.plan();
     let unit = |cell: usize| plan.cells[cell].problem.goals.features()[0].unit.as_str();
     let other = (1..plan.cells.len()).find(|cell| unit(*cell) != unit(0));
     ensure!(
         other.is_none(),
-        "cells in {:?} and in {:?} share no axis: leave one kind out, or --figure",
+        "cells in {:?} and {:?} cannot share an axis: use one unit, or omit --figure",
         unit(0),
         other.map_or("", unit)
     );
@@ -168,7 +168,7 @@ mod tests {
         assert!(report(&lost, &nothing).unwrap_err().to_string().contains("repetition 1"));
     }
 
-    /// Every method, the swarms and those that own the run too.
+    /// Covers every method, including swarms and whole-run methods.
     #[test]
     fn two_threads_give_the_bits_of_one() {
         let quick = |setting: &str| setting != "SST";

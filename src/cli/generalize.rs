@@ -6,23 +6,23 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
 
-/// Generalize demonstrations to the goals of an action.
+/// Generalize demonstrations into the goals of an action.
 #[derive(Debug, clap::Args)]
 #[command(allow_negative_numbers = true)]
 pub struct GeneralizeArguments {
-    /// Demonstrations: a file is one of a single stream, a directory one of a stream in each file.
+    /// Demonstrations: a file is one with a single stream, a directory one with a stream per file.
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Time of one goal; n = mean duration / this.
+    /// T_min, the duration of one goal in seconds; n = mean duration / T_min.
     #[arg(long, value_name = "SECONDS")]
     t_min: f64,
-    /// Whether each demonstration counts alike, or each sample.
+    /// Whether every demonstration or every sample has the same weight.
     #[arg(long, value_enum, default_value_t = Weighting::PerDemonstration)]
     weighting: Weighting,
-    /// Feature to keep; may be repeated, all when absent.
+    /// Feature to keep; may be repeated; all if absent.
     #[arg(long = "feature", value_name = "NAME")]
     features: Vec<String>,
-    /// Print CSV: header first, one row a goal, one column a feature.
+    /// Print CSV: a header, then one row per goal with one column per feature.
     #[arg(long, conflicts_with = "json")]
     csv: bool,
     /// Print JSON: goals, spread, durations.
@@ -35,14 +35,14 @@ pub struct GeneralizeArguments {
 /// Prints the goals of the demonstrations.
 ///
 /// # Errors
-/// Refused files, demonstrations that do not fit together, a closed stdout.
+/// Rejected files, demonstrations that do not fit together, or a closed stdout.
 pub fn run(arguments: &GeneralizeArguments) -> anyhow::Result<()> {
     let demonstrations = read_demonstrations(&arguments.files, &arguments.read)?;
     let features = (!arguments.features.is_empty()).then(|| arguments.features.clone());
     let spec = GeneralizeSpec { t_min_s: arguments.t_min, weighting: arguments.weighting, features };
     let generalized = generalize(&demonstrations, &spec)?;
     if generalized.interpolated_bins > 0 {
-        eprintln!("{} bins without a sample were interpolated in time", generalized.interpolated_bins);
+        eprintln!("{} bins without samples were interpolated in time", generalized.interpolated_bins);
     }
     let text = if arguments.csv {
         goals_to_csv(&generalized.goals)
@@ -55,11 +55,11 @@ pub fn run(arguments: &GeneralizeArguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Goals with their spread, for people.
+/// Goals with their spread, as a table for people.
 fn table(generalized: &Generalized) -> String {
     let goals = &generalized.goals;
     let mut text = format!(
-        "{} goals from {} demonstrations of {:.2} s on average (value +- standard deviation over demonstrations)\n",
+        "{} goals from {} demonstrations, mean duration {:.2} s (value +- standard deviation over demonstrations)\n",
         goals.len(),
         generalized.durations_s.len(),
         generalized.mean_duration_s

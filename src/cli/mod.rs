@@ -1,7 +1,7 @@
-//! The command line: one file a command; each reads its input, calls the library, prints.
+//! The command line, one file per command: each reads its input, calls the library and prints.
 //!
-//! Results go to stdout, progress and errors to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage (clap), 78 refused
-//! by a start-up gate.
+//! Results go to stdout, progress and errors to stderr. Exit codes: 0 success, 1 failure, 2 incorrect usage (clap), 78
+//! a start-up gate stayed closed.
 
 mod demonstrations;
 mod experiment;
@@ -34,11 +34,11 @@ enum Command {
     Healthcheck(healthcheck::HealthcheckArguments),
     Reproduce(reproduce::ReproduceArguments),
     Experiment(experiment::ExperimentArguments),
-    /// Print the OpenAPI 3.1 document of the REST interface.
+    /// Print the OpenAPI 3.1 document of the REST API.
     Openapi,
 }
 
-/// Runs the command and turns its error chain into one readable line on stderr.
+/// Runs the command and prints a failure, with its causes, as one line on stderr.
 #[must_use]
 pub fn main(arguments: &Arguments) -> ExitCode {
     let result = match &arguments.command {
@@ -60,7 +60,7 @@ pub fn main(arguments: &Arguments) -> ExitCode {
     }
 }
 
-/// The error with its causes; those that it tells itself are not told again.
+/// The error and its causes, joined; a cause already contained in the text is not repeated.
 fn one_line(error: &anyhow::Error) -> String {
     error.chain().skip(1).map(ToString::to_string).fold(error.to_string(), |text, cause| {
         if text.contains(cause.trim()) { text } else { format!("{text}: {cause}") }

@@ -1,4 +1,4 @@
-//! `cgda recognize`: which action a demonstration shows, or none.
+//! `cgda recognize`: which of several actions a demonstration shows, or none.
 
 use super::demonstrations::{ReadArguments, read_demonstrations};
 use crate::framework::generalization::{Generalized, Goals, goals_from_csv};
@@ -8,20 +8,20 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Rank actions by how well an observed demonstration shows them.
+/// Rank actions by how well they match an observed demonstration.
 #[derive(Debug, clap::Args)]
 #[command(allow_negative_numbers = true)]
 pub struct RecognizeArguments {
-    /// What was observed: a file of one stream, or a directory of a stream in each file.
+    /// The observation: a file with a single stream, or a directory with a stream per file.
     observed: PathBuf,
-    /// Actions: goals as `cgda generalize` prints them with --csv or --json.
+    /// Actions: goals as printed by `cgda generalize` with --csv or --json.
     #[arg(required = true)]
     actions: Vec<PathBuf>,
-    /// How the discrepancy is measured.
+    /// Metric of the discrepancy.
     #[arg(long, value_enum, default_value_t = Metric::Multivariate)]
     metric: Metric,
-    /// Largest relative discrepancy (mean distance of matched rows over the action's size) of a recognised action;
-    /// beyond it the answer is unknown. 0.3 when absent.
+    /// Largest relative discrepancy (mean distance of matched rows divided by the action's size) of a recognized
+    /// action; above it the answer is unknown. 0.3 if absent.
     #[arg(long, value_name = "SHARE")]
     threshold: Option<f64>,
     /// Print JSON: ranking, split by feature, warping paths.
@@ -34,7 +34,7 @@ pub struct RecognizeArguments {
 /// Prints the ranking.
 ///
 /// # Errors
-/// Refused files, actions that are no goals, no comparable action, a closed stdout.
+/// Rejected files, actions that are not goals, no comparable action, or a closed stdout.
 pub fn run(arguments: &RecognizeArguments) -> anyhow::Result<()> {
     let demonstrations = read_demonstrations(std::slice::from_ref(&arguments.observed), &arguments.read)?;
     let observed = observed_rows(&demonstrations[0])?;
@@ -55,21 +55,21 @@ pub fn run(arguments: &RecognizeArguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Goals out of a CSV or JSON file, named as the file.
+/// Reads goals from a CSV or JSON file; the action is named after the file.
 fn action(path: &Path) -> anyhow::Result<(String, Goals)> {
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
     let goals = if text.trim_start().starts_with('{') {
         serde_json::from_str::<Generalized>(&text)
             .map(|generalized| generalized.goals)
             .or_else(|_| serde_json::from_str::<Goals>(&text))
-            .with_context(|| format!("{} holds no goals {{features, goals}}", path.display()))?
+            .with_context(|| format!("{} does not contain goals {{features, goals}}", path.display()))?
     } else {
-        goals_from_csv(&text).with_context(|| format!("{} holds no table of goals", path.display()))?
+        goals_from_csv(&text).with_context(|| format!("{} does not contain a table of goals", path.display()))?
     };
     Ok((path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()), goals))
 }
 
-/// The ranking for people.
+/// The ranking as a table for people.
 fn table(recognition: &Recognition) -> String {
     let mut text = match &recognition.recognized {
         Some(name) => format!("recognised: {name}\n"),

@@ -1,4 +1,4 @@
-//! `cgda reproduce`: the paper's tables and figures, rerun.
+//! `cgda reproduce`: reruns the paper's tables and figures.
 
 use super::experiment::finish;
 use crate::framework::experiment::paper::{PaperCell, PaperTables};
@@ -8,25 +8,25 @@ use anyhow::Context as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Rerun the paper's tables and figures beside what was published.
+/// Rerun the paper's tables and figures and compare them with the published values.
 #[derive(Debug, clap::Args)]
 pub struct ReproduceArguments {
-    /// Only this table (1 to 6); all when absent.
+    /// Only this table (1 to 6); all if absent.
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=6), conflicts_with = "figures")]
     table: Option<u8>,
-    /// Runs of each cell; each cell runs the seeds from --seed on.
+    /// Runs per cell, with seeds counting up from --seed.
     #[arg(long, value_name = "R", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
     repetitions: u32,
     /// Seed of each cell's first run.
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Threads; all cores when absent. The results do not depend on it.
+    /// Number of threads; all cores if absent. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     threads: Option<u32>,
-    /// Print CSV: one line a cell.
+    /// Print CSV, one line per cell.
     #[arg(long)]
     csv: bool,
-    /// Write the paper's figures 2, 4, 5, 6, 7, 8, 9 and 10 there as SVG.
+    /// Write the paper's figures 2, 4, 5, 6, 7, 8, 9 and 10 to this directory as SVG.
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
 }
@@ -34,7 +34,7 @@ pub struct ReproduceArguments {
 /// Runs the tables and prints them, or writes the figures.
 ///
 /// # Errors
-/// A directory that cannot be written, a closed stdout.
+/// A directory that cannot be written, or a closed stdout.
 pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
     let tables = PaperTables::shipped()?.only(arguments.table);
     let spec = tables.experiment(arguments.seed, arguments.repetitions)?;
@@ -53,7 +53,7 @@ pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
 }
 
 fn write_figures(folder: &Path, experiment: &Experiment, cells: &[PaperCell]) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+    std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", folder.display()))?;
     for (number, svg) in paper_figures::figures(experiment, cells)? {
         let path = folder.join(format!("figure-{number:02}.svg"));
         std::fs::write(&path, svg).with_context(|| format!("{} cannot be written", path.display()))?;
@@ -88,7 +88,7 @@ mod tests {
         assert_eq!(export::paper_csv(&one.table()), export::paper_csv(&many.table()));
     }
 
-    /// `cgda run --preset paper-wax --method pso` runs what the tables' cells do.
+    /// `cgda run --preset paper-wax --method pso` gives the same runs as the tables' cells.
     #[test]
     fn the_tables_run_the_presets_own_methods() {
         let (tables, plan) = plan(None, 1);
@@ -102,7 +102,7 @@ mod tests {
         assert_eq!(compared, 8);
     }
 
-    /// Means of 20 runs, so in bands of 40 %: a smoke test; 1000 runs stay within 8 and 13 %.
+    /// Means over only 20 runs, hence the tolerance of 40 %: a smoke test. 1000 runs stay within 8 and 13 %.
     #[test]
     fn every_cell_comes_near_the_paper_s_and_every_figure_is_drawn() {
         let (tables, experiment) = experiment(None, 20, 2);

@@ -1,4 +1,4 @@
-//! `cgda run`: a problem, from a preset or from demonstrations, searched for R seeds over all cores.
+//! `cgda run`: executes a problem, from a preset or from demonstrations, for R seeds on all cores.
 
 mod dry_run;
 mod figures;
@@ -16,7 +16,7 @@ use seeded::Seeded;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 
-/// Evaluations between two looks at the progress bar.
+/// Number of evaluations between updates of the progress bar.
 const SLICE: u64 = 2_000;
 
 /// Find the joint trajectory that produces the demonstrated effects.
@@ -28,31 +28,32 @@ pub struct RunArguments {
     /// Seed of the first repetition; the others count up from it.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Independent runs, seeds counting up.
+    /// Number of independent runs.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     repetitions: u32,
-    /// Also tell the share of runs whose discrepancy is at most this (features' unit); the preset's own when absent.
+    /// Also print the share of runs whose discrepancy is at most this (features' unit); the preset's own threshold if
+    /// absent.
     #[arg(long, value_parser = positive)]
     threshold: Option<f64>,
-    /// Execute that preset's action before each run, on the same robot with the same seed: its trials are remembered.
+    /// Execute this preset's action before each run, on the same robot with the same seed, and reuse its trials.
     #[arg(long, value_name = "PRESET")]
     after: Option<String>,
-    /// The robot starts in a pose drawn by the seed, uniform within its limits.
+    /// Start the robot in a pose drawn from the seed, uniformly within its limits.
     #[arg(long, conflicts_with = "out")]
     random_start: bool,
-    /// Threads; all cores when absent. The result does not depend on it.
+    /// Number of threads; all cores if absent. The result does not depend on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Write each run's trajectory there, as CSV, JSON and ROS 2 JointTrajectory.
+    /// Write each run's trajectory to this directory as CSV, JSON and ROS 2 JointTrajectory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print one JSON object on stdout.
     #[arg(long)]
     json: bool,
-    /// Only say what the runs would cost.
+    /// Only estimate what the runs would cost.
     #[arg(long)]
     dry_run: bool,
-    /// How long a trial on a robot takes, for --dry-run.
+    /// Duration of a trial on a robot, seconds, for --dry-run.
     #[arg(long, value_name = "SECONDS", default_value_t = ROBOT_TRIAL_S, value_parser = positive)]
     robot_trial_s: f64,
 }
@@ -65,15 +66,15 @@ fn positive(argument: &str) -> Result<f64, String> {
 /// Runs the problem and prints its results.
 ///
 /// # Errors
-/// Bad input, a problem whose parts do not fit, files that cannot be written.
+/// Invalid input, a problem whose parts do not fit together, or files that cannot be written.
 pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     let named = problem::read(&arguments.problem)?;
     let after = arguments.after.as_ref().map(|preset| problem::read_like(&arguments.problem, preset)).transpose()?;
-    // fails before any thread starts
+    // Fails before any thread is started.
     Iet::new(&named.problem, arguments.seed)?;
     let seeded = Seeded::new(named, after, arguments.random_start)?;
     let last = u64::from(arguments.repetitions - 1);
-    arguments.seed.checked_add(last).context("the last repetition's seed is beyond 64 bits: give a smaller --seed")?;
+    arguments.seed.checked_add(last).context("the last repetition's seed exceeds 64 bits: give a smaller --seed")?;
     if arguments.dry_run {
         let RunArguments { seed, repetitions, robot_trial_s, json, .. } = *arguments;
         let text = dry_run::report(&seeded, seed, repetitions, robot_trial_s, json)?;
@@ -84,7 +85,7 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     if let Some(directory) = &arguments.out {
         output::write_trajectories(directory, &seeded.named, &runs)?;
     }
-    let figures = Figures::of(&runs, arguments.threshold.or(seeded.named.threshold)).context("no run was made")?;
+    let figures = Figures::of(&runs, arguments.threshold.or(seeded.named.threshold)).context("there were no runs")?;
     let text = if arguments.json {
         output::json(&seeded, arguments.seed, &runs, figures)?
     } else {
@@ -94,7 +95,7 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// All runs, in the order of `seeds`.
+/// Executes all runs; the results are in the order of `seeds`.
 fn search(seeded: &Seeded, seeds: &[u64], threads: Option<u16>) -> anyhow::Result<Vec<RunResult>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build()?;
     let bar = progress_bar((seeds.len() * seeded.named.problem.goals.len()) as u64);

@@ -18,33 +18,34 @@ use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::TcpListener;
 
-/// Workers have so long to write their checkpoints after a signal.
+/// Time for workers to write their checkpoints after a signal.
 const SHUT_DOWN: Duration = Duration::from_secs(8);
 
-/// Serve the dashboard, REST and gRPC; one line on stdout tells the addresses once it is ready.
+/// Serve the dashboard, REST and gRPC; prints one line with the addresses on stdout once it is ready.
 ///
-/// Every setting can also stand in a file (cgda.toml) or in the environment (CGDA_SERVER__LISTEN); flags win.
+/// Every setting can also be given in a file (cgda.toml) or in the environment (CGDA_SERVER__LISTEN); flags take
+/// precedence.
 #[derive(Debug, clap::Args)]
 pub struct ServeArguments {
-    /// Configuration file; cgda.toml in the working directory if it is there.
+    /// Configuration file; by default cgda.toml in the working directory, if it exists.
     #[arg(long, env = "CGDA_CONFIG", value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Folder of everything that is kept [default: cgda-data]
+    /// Directory of all persistent data [default: cgda-data]
     #[arg(long, value_name = "DIR")]
     data_dir: Option<PathBuf>,
-    /// Address of HTTP and gRPC; port 0 takes a free one [default: 127.0.0.1:8080]
+    /// Address of HTTP and gRPC; port 0 picks a free port [default: 127.0.0.1:8080]
     #[arg(long, value_name = "ADDRESS")]
     listen: Option<SocketAddr>,
-    /// Token that clients must show; made at the first start and kept in the data directory when absent.
+    /// Access token of clients; if absent, generated at the first start and stored in the data directory.
     #[arg(long, env = "CGDA_TOKEN", hide_env_values = true, value_name = "TOKEN")]
     token: Option<SecretString>,
-    /// Allow an address that other machines can reach, although the token then crosses the network readable.
+    /// Allow an address that other machines can reach, although the token then crosses the network unencrypted.
     #[arg(long)]
     allow_remote: bool,
-    /// Jobs at a time [default: one a core]
+    /// Number of jobs run concurrently [default: one per core]
     #[arg(long, value_name = "N")]
     workers: Option<usize>,
-    /// How log lines are written [default: text]
+    /// Format of log lines [default: text]
     #[arg(long, value_name = "FORMAT")]
     log_format: Option<LogFormat>,
     /// Fill an empty database with the shipped demonstrations, robot and worlds, and start a wax and a paint job.
@@ -78,16 +79,16 @@ impl ServeArguments {
     }
 }
 
-/// Serves until a signal.
+/// Serves until a signal arrives.
 ///
 /// # Errors
-/// [`GateClosed`] when a start-up gate does not open; whatever else keeps the server from starting.
+/// [`GateClosed`] if a start-up gate stays closed; otherwise whatever prevents the server from starting.
 pub fn run(arguments: &ServeArguments) -> anyhow::Result<()> {
     let config = Config::load(arguments.config.as_deref(), &arguments.flags()).map_err(GateClosed::because)?;
     telemetry::start(&config.log)?;
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(serve(&config, arguments));
-    // Work that blocks has been given its time already.
+    // Blocking work has already had its time to finish.
     runtime.shutdown_timeout(Duration::from_millis(500));
     served
 }
@@ -111,7 +112,7 @@ async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()
     let app = App::new(ports.clone());
     let listener = TcpListener::bind(config.server.listen)
         .await
-        .with_context(|| format!("{} cannot be listened on: give another --listen", config.server.listen))?;
+        .with_context(|| format!("cannot listen on {}: give another --listen", config.server.listen))?;
     let address = listener.local_addr()?;
     let runner = Runner::start(&ports, &settings(config)).await?;
     let router = router(&app, &Access::new(token.expose_secret()), config)?;
@@ -129,7 +130,7 @@ async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()
     app.set_ready(false);
     let (in_time, _) = tokio::join!(runner.shut_down(SHUT_DOWN), accepting);
     if !in_time {
-        tracing::warn!("some jobs did not reach a checkpoint in time: they go on from the one before");
+        tracing::warn!("some jobs did not reach a checkpoint in time: they will continue from the previous one");
     }
     Ok(())
 }
@@ -145,15 +146,15 @@ fn check_address(server: &ServerConfig) -> Result<(), GateClosed> {
     )))
 }
 
-/// The token goes into headers and into the URL that is printed.
+/// Checks the token, which appears in headers and in the printed URL.
 fn check_token(token: &str) -> Result<(), GateClosed> {
     if token.len() < 16 {
-        return Err(GateClosed::rule("the token has fewer than 16 characters: give a longer one"));
+        return Err(GateClosed::rule("the token is shorter than 16 characters: give a longer one"));
     }
     if token.bytes().all(|b| b.is_ascii_alphanumeric() || b"-._~".contains(&b)) {
         return Ok(());
     }
-    Err(GateClosed::rule("the token holds a character that is not of A-Z a-z 0-9 - . _ ~: give another one"))
+    Err(GateClosed::rule("the token contains a character other than A-Z a-z 0-9 - . _ ~: give another one"))
 }
 
 fn fresh_token() -> String {
@@ -179,7 +180,7 @@ fn router(app: &App, access: &Access, config: &Config) -> anyhow::Result<axum::R
         message_limit_bytes: limits.body_bytes,
         reflection: config.server.reflection,
     };
-    // The router they share has the fallback; two would clash.
+    // Both routers have a fallback, and a merged router may only have one.
     let grpc = grpc::routes(app.clone(), access.clone(), &grpc_settings)?.into_axum_router().reset_fallback();
     let http_settings = http::Settings {
         upload_limit_bytes: limits.upload_bytes,
@@ -190,7 +191,7 @@ fn router(app: &App, access: &Access, config: &Config) -> anyhow::Result<axum::R
     Ok(http::router(app.clone(), access.clone(), http_settings, grpc))
 }
 
-/// The one line on stdout.
+/// Prints the ready line on stdout.
 fn announce(address: SocketAddr, token: &str) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "cgda ready http=http://{address} grpc={address} url=http://{address}/?token={token}")?;

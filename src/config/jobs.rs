@@ -1,19 +1,19 @@
-//! `[jobs]`: how jobs are run.
+//! `[jobs]`: concurrency, leases and checkpoints.
 
 use super::{ConfigError, within};
 use serde::{Deserialize, Serialize};
 
-/// How jobs are run.
+/// Settings of the job runner.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct JobsConfig {
-    /// Jobs at a time; one a core when absent.
+    /// Jobs run concurrently; one per core if absent.
     pub workers: Option<usize>,
-    /// After so long without a sign of life a job is taken back.
+    /// Lease duration, ms: a job without a heartbeat for this long is requeued.
     pub lease_ms: u64,
-    /// Time between signs of life, at most a third of the lease.
+    /// Heartbeat interval, ms; at most a third of the lease.
     pub heartbeat_ms: u64,
-    /// Time between checkpoints.
+    /// Checkpoint interval, ms.
     pub checkpoint_ms: u64,
 }
 

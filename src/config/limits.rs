@@ -1,21 +1,21 @@
-//! `[limits]`: what is refused as too large or too slow.
+//! `[limits]`: bounds on sizes and times.
 
 use super::{ConfigError, within};
 use serde::{Deserialize, Serialize};
 
-/// What is refused as too large or too slow.
+/// Bounds beyond which a request is rejected as too large or too slow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LimitsConfig {
-    /// Bytes of one upload.
+    /// Maximum size of one upload, bytes.
     pub upload_bytes: usize,
-    /// Bytes of any other body and of a gRPC message.
+    /// Maximum size of any other body and of a gRPC message, bytes.
     pub body_bytes: usize,
-    /// Time until the head of an answer; not for uploads, streams and gRPC.
+    /// Maximum time until the head of a response, ms; uploads, streams and gRPC are exempt.
     pub answer_ms: u64,
-    /// Time until the head of a request has arrived.
+    /// Maximum time until the head of a request has arrived, ms.
     pub request_head_ms: u64,
-    /// Connections at a time.
+    /// Maximum number of concurrent connections.
     pub connections: usize,
 }
 

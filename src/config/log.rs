@@ -2,23 +2,23 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Logging; it goes to stderr.
+/// Settings of the log on stderr.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LogConfig {
-    /// What is logged, for example `info,cgda=debug`.
+    /// `tracing` filter, for example `info,cgda=debug`.
     pub filter: String,
-    /// How it is written.
+    /// Format of log lines.
     pub format: LogFormat,
 }
 
-/// How log lines are written.
+/// Format of log lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum LogFormat {
-    /// For people.
+    /// Text for people.
     Text,
-    /// One JSON object a line.
+    /// One JSON object per line.
     Json,
 }
 

@@ -1,5 +1,5 @@
-//! Configuration: defaults, then the file, then `CGDA_SECTION__KEY` from the environment, then flags. The later wins;
-//! a key that is not known is refused by its name.
+//! Configuration from defaults, file, environment (`CGDA_SECTION__KEY`) and flags, in increasing order of precedence.
+//! Unknown keys are errors.
 
 mod jobs;
 mod limits;
@@ -16,49 +16,49 @@ use figment::providers::{Env, Format as _, Serialized, Toml};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Everything that can be set.
+/// All settings.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Config {
     /// Addresses and access.
     pub server: ServerConfig,
-    /// How jobs are run.
+    /// Job runner.
     pub jobs: JobsConfig,
-    /// What is refused as too large or too slow.
+    /// Bounds on sizes and times.
     pub limits: LimitsConfig,
     /// Logging.
     pub log: LogConfig,
 }
 
-/// A configuration that cannot be used.
+/// Reasons why a configuration cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
-    /// A file that was named is not there.
+    /// The named file does not exist.
     #[error("there is no configuration file {path}")]
     NoFile {
-        /// As it was named.
+        /// Path as given.
         path: PathBuf,
     },
-    /// A key or value is wrong.
-    #[error("the configuration is wrong: {0}")]
+    /// A key or value is invalid.
+    #[error("invalid configuration: {0}")]
     Wrong(#[from] Box<figment::Error>),
-    /// A value is out of its bounds.
-    #[error("the configuration is wrong: {key} is {value}: give {bounds}")]
+    /// A value is out of bounds.
+    #[error("invalid configuration: {key} is {value}: give {bounds}")]
     Bounds {
-        /// Which key.
+        /// Name of the key.
         key: &'static str,
-        /// Its value.
+        /// Value given.
         value: String,
-        /// What is allowed.
+        /// Allowed values.
         bounds: &'static str,
     },
 }
 
-/// Values of flags that were given, as nested keys.
+/// Values given as flags, as nested keys.
 pub type Flags = figment::value::Dict;
 
 impl Config {
-    /// Reads `file` (or `cgda.toml` in the working directory, if it is there), the environment and `flags`.
+    /// Reads `file` (by default `cgda.toml` in the working directory, if it exists), the environment and `flags`.
     ///
     /// # Errors
     /// [`ConfigError`] names the key.
@@ -85,7 +85,7 @@ impl Config {
     }
 }
 
-/// Refuses a value outside its bounds.
+/// Checks that a value is within its bounds.
 fn within<T: PartialOrd + Copy + std::fmt::Display>(
     key: &'static str,
     value: T,

@@ -8,15 +8,16 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ServerConfig {
-    /// Address of HTTP and gRPC; port 0 takes a free one.
+    /// Address of HTTP and gRPC; port 0 picks a free port.
     pub listen: SocketAddr,
-    /// Folder of everything that is kept.
+    /// Directory of all persistent data.
     pub data_dir: PathBuf,
-    /// Allows an address that other machines can reach. Without TLS the token then crosses the network readable.
+    /// Allows an address that other machines can reach. There is no TLS, so the token then crosses the network
+    /// unencrypted.
     pub allow_remote: bool,
-    /// Names of this server beside its numeric addresses and `localhost`.
+    /// Host names of this server besides its numeric addresses and `localhost`.
     pub hosts: Vec<String>,
-    /// Whether gRPC clients may ask for the services and their messages.
+    /// Whether gRPC reflection is offered.
     pub reflection: bool,
 }
 

@@ -1,4 +1,4 @@
-//! A feature: one scalar that is measured over time (an object's x; % of a wall painted; a force).
+//! A feature: one scalar measured over time (an object's x; % of a wall painted; a force).
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -9,18 +9,18 @@ use utoipa::ToSchema;
 pub struct Feature {
     /// Unique within its demonstration or action, for example `x` or `painted`.
     pub name: String,
-    /// Unit symbol, for example `m`, `mm`, `%`, `N`; empty where unknown.
+    /// Unit symbol, for example `m`, `mm`, `%`, `N`; empty if unknown.
     #[serde(default)]
     pub unit: String,
 }
 
 impl Feature {
-    /// A feature of that name and unit.
+    /// Creates a feature from its name and unit.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { name: name.into(), unit: unit.into() }
     }
 
-    /// Name and unit out of a column header: `x [mm]`, `x (mm)` or `x`.
+    /// Parses a column header: `x [mm]`, `x (mm)` or `x`.
     #[must_use]
     pub fn from_header(header: &str) -> Self {
         let header = header.trim();
@@ -32,7 +32,7 @@ impl Feature {
         Self::new(header, "")
     }
 
-    /// The column header `x [mm]`, or `x` without unit.
+    /// Column header `x [mm]`, or `x` if it has no unit.
     #[must_use]
     pub fn header(&self) -> String {
         if self.unit.is_empty() { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }

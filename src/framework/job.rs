@@ -1,74 +1,74 @@
-//! The job state machine: which event moves a job from which state to which.
+//! The job state machine: which event takes a job from which state to which.
 //!
 //! # Invariants
-//! - A final state accepts no event at all: a job ends exactly once.
-//! - `Interrupted` remembers nothing: what a job was doing is in its checkpoint.
+//! - A final state accepts no events: a job ends exactly once.
+//! - `Interrupted` stores nothing: the job's progress is in its checkpoint.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Where a job stands.
+/// State of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 #[schema(as = JobState)]
 pub enum State {
-    /// Waits for a worker.
+    /// Waiting for a worker.
     Queued,
-    /// A worker has it and reads what it needs.
+    /// A worker has claimed it and is reading its inputs.
     Preparing,
-    /// A worker computes.
+    /// A worker is computing.
     Running,
-    /// Asked to pause; the worker writes a checkpoint first.
+    /// Asked to pause; the worker first writes a checkpoint.
     Pausing,
-    /// Rests at its checkpoint until resumed.
+    /// Paused at its checkpoint until resumed.
     Paused,
-    /// Its worker was lost; goes on from its last checkpoint.
+    /// Lost its worker; continues from its last checkpoint.
     Interrupted,
-    /// Asked to cancel; the worker has not seen it yet.
+    /// Asked to cancel; the worker has not stopped yet.
     Cancelling,
-    /// Ended on request.
+    /// Ended at a user's request.
     Cancelled,
-    /// Ended with its result.
+    /// Ended with a result.
     Succeeded,
-    /// Ended without a result; the reason is stored with it.
+    /// Ended without a result; the reason is stored with the job.
     Failed,
 }
 
-/// What happens to a job.
+/// Events that move a job between states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Event {
     /// A worker claimed it.
     Claim,
-    /// The worker has all it needs.
+    /// The worker has read its inputs.
     Start,
-    /// A user asks to pause.
+    /// A user asked to pause.
     Pause,
-    /// The worker rests at a checkpoint.
+    /// The worker paused at a checkpoint.
     Rest,
-    /// A user asks to go on.
+    /// A user asked to resume.
     Resume,
     /// Its worker was lost.
     LoseWorker,
-    /// It is offered to workers again.
+    /// The job is offered to workers again.
     Requeue,
-    /// A user asks to cancel.
+    /// A user asked to cancel.
     Cancel,
-    /// The worker stopped for good.
+    /// The worker stopped after a cancel.
     Stop,
     /// The result is complete.
     Succeed,
-    /// It cannot be completed.
+    /// The job cannot be completed.
     Fail,
 }
 
-/// An event that the state does not accept.
+/// An event that the current state does not accept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a job that is {state:?} does not accept {event:?}")]
 pub struct InvalidTransition {
-    /// The job's state.
+    /// State of the job.
     pub state: State,
-    /// The refused event.
+    /// Rejected event.
     pub event: Event,
 }
 
@@ -87,7 +87,7 @@ impl State {
         Self::Failed,
     ];
 
-    /// The name in JSON and in stores.
+    /// Name in JSON and in stores.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -104,13 +104,13 @@ impl State {
         }
     }
 
-    /// The state of that name.
+    /// The state with that name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|state| state.as_str() == name)
     }
 
-    /// Whether the job ended: no event is accepted any more.
+    /// Whether the job has ended; no event is accepted any more.
     #[must_use]
     pub fn is_final(self) -> bool {
         matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
@@ -125,7 +125,7 @@ impl State {
     /// The state after `event`.
     ///
     /// # Errors
-    /// [`InvalidTransition`] when this state does not accept the event.
+    /// [`InvalidTransition`] if this state does not accept the event.
     pub fn apply(self, event: Event) -> Result<Self, InvalidTransition> {
         use State::{
             Cancelled, Cancelling, Failed, Interrupted, Paused, Pausing, Preparing, Queued, Running, Succeeded,
@@ -135,12 +135,12 @@ impl State {
             (Preparing, Event::Start) | (Pausing, Event::Resume) => Running,
             (Preparing | Running, Event::Pause) => Pausing,
             (Pausing, Event::Rest | Event::LoseWorker) | (Queued | Interrupted, Event::Pause) => Paused,
-            // A worker that shuts down gives back what it holds.
+            // A worker that shuts down returns the jobs it holds.
             (Paused, Event::Resume) | (Interrupted | Preparing | Running, Event::Requeue) => Queued,
             (Preparing | Running, Event::LoseWorker) => Interrupted,
             (Preparing | Running | Pausing, Event::Cancel) => Cancelling,
             (Queued | Paused | Interrupted, Event::Cancel) | (Cancelling, Event::Stop | Event::LoseWorker) => Cancelled,
-            // The last slice may end before the worker sees a pause or a cancel: the result is kept.
+            // The last slice may finish before the worker notices a pause or a cancel; the result is kept.
             (Running | Pausing | Cancelling, Event::Succeed) => Succeeded,
             (Queued | Preparing | Running | Pausing | Interrupted | Cancelling, Event::Fail) => Failed,
             (state, event) => return Err(InvalidTransition { state, event }),

@@ -1,6 +1,7 @@
 //! The accept loop, for HTTP/1.1 and HTTP/2 on one port.
 //!
-//! It is ours because axum's sets no timer: there a client that never ends its head is never let go.
+//! We need our own because axum's sets no timeouts: a client that never finishes its request head would hold its
+//! connection forever.
 
 use axum::Router;
 use hyper::body::Incoming;
@@ -16,23 +17,23 @@ use tokio::time::timeout;
 use tokio_util::sync::CancellationToken;
 use tower::ServiceExt as _;
 
-/// What every HTTP/2 connection begins with.
+/// First bytes of every HTTP/2 connection.
 const PREFACE: &[u8] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
-/// After a signal connections have so long to end by themselves; streams never would.
+/// Time for connections to end by themselves after a signal; streams never would.
 const GRACE: Duration = Duration::from_secs(2);
-/// HTTP/2 connections that do not answer a ping this long are closed.
+/// HTTP/2 connections that do not answer a ping within this time are closed.
 const PING: Duration = Duration::from_secs(20);
 
-/// What a client may take.
+/// Limits for clients.
 #[derive(Debug, Clone)]
 pub struct Limits {
-    /// Time until the head of a request has arrived.
+    /// Maximum time until the head of a request has arrived.
     pub request_head: Duration,
-    /// Connections at a time; more wait.
+    /// Maximum number of concurrent connections; further ones wait.
     pub connections: usize,
 }
 
-/// Serves `router` until `stop`, then lets requests under way end for a short while.
+/// Serves `router` until `stop`, then gives requests in flight a short time to finish.
 pub async fn accept(listener: TcpListener, router: Router, limits: Limits, stop: CancellationToken) {
     let mut builder = Builder::new(TokioExecutor::new());
     builder.http1().timer(TokioTimer::new()).header_read_timeout(limits.request_head).max_buf_size(64 << 10);
@@ -65,14 +66,14 @@ pub async fn accept(listener: TcpListener, router: Router, limits: Limits, stop:
             }
             Err(error) if is_of_one_client(error.kind()) => {}
             Err(error) => {
-                tracing::error!(error = %error, "no connection could be accepted");
+                tracing::error!(error = %error, "cannot accept a connection");
                 tokio::time::sleep(Duration::from_millis(100)).await;
             }
         }
     }
     drop(listener);
     if timeout(GRACE, graceful.shutdown()).await.is_err() {
-        tracing::info!("connections that were still open are closed");
+        tracing::info!("closed the connections that were still open");
     }
 }
 
@@ -104,7 +105,7 @@ impl Connection {
     }
 }
 
-/// Returns when the protocol is known: hyper waits for that without any limit of time.
+/// Returns once the protocol is known; hyper waits for that without a time limit.
 async fn began(stream: &TcpStream) {
     let mut head = [0; PREFACE.len()];
     loop {

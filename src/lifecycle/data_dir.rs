@@ -1,30 +1,30 @@
-//! The data directory: made for its owner only, held by one server at a time.
+//! The data directory: accessible to its owner only, locked by one server at a time.
 
 use std::fs::{DirBuilder, File, OpenOptions, TryLockError};
 use std::io::{Read as _, Write as _};
 use std::os::unix::fs::{DirBuilderExt as _, OpenOptionsExt as _};
 use std::path::{Path, PathBuf};
 
-/// Why the data directory cannot be used.
+/// Reasons why the data directory cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum DataDirError {
-    /// Another server works on it.
-    #[error("another server holds the data directory {path}: stop it, or give another --data-dir")]
+    /// Another server has locked it.
+    #[error("another server uses the data directory {path}: stop it, or give another --data-dir")]
     Held {
-        /// The directory.
+        /// Path of the directory.
         path: PathBuf,
     },
-    /// It cannot be made, read or written.
+    /// It cannot be created, read or written.
     #[error("the data directory cannot be used: {path}: {cause}")]
     Unusable {
-        /// The directory or the file in it.
+        /// Path of the directory or of a file in it.
         path: PathBuf,
-        /// What the system says.
+        /// Error from the operating system.
         cause: std::io::Error,
     },
 }
 
-/// The data directory, held until dropped or until the process ends in any way.
+/// The data directory, locked until dropped or until the process ends in any way.
 #[derive(Debug)]
 pub struct DataDir {
     path: PathBuf,
@@ -32,10 +32,10 @@ pub struct DataDir {
 }
 
 impl DataDir {
-    /// Makes the directory if it is not there, and takes hold of it.
+    /// Creates the directory if necessary and locks it.
     ///
     /// # Errors
-    /// [`DataDirError`] when another server holds it or the system refuses.
+    /// [`DataDirError`] if another server has locked it or the operating system fails.
     pub fn hold(path: &Path) -> Result<Self, DataDirError> {
         let unusable = |path: &Path, cause| DataDirError::Unusable { path: path.to_owned(), cause };
         if !path.is_dir() {
@@ -50,16 +50,16 @@ impl DataDir {
         }
     }
 
-    /// Where the database is.
+    /// Path of the database.
     #[must_use]
     pub fn database(&self) -> PathBuf {
         self.path.join("cgda.db")
     }
 
-    /// The token kept here; `fresh` becomes it when there is none yet.
+    /// The stored token; if there is none yet, stores `fresh()`.
     ///
     /// # Errors
-    /// [`DataDirError::Unusable`] when the system refuses.
+    /// [`DataDirError::Unusable`] if the operating system fails.
     pub fn token(&self, fresh: impl FnOnce() -> String) -> Result<String, DataDirError> {
         let path = self.path.join("token");
         let unusable = |cause| DataDirError::Unusable { path: path.clone(), cause };
@@ -72,7 +72,7 @@ impl DataDir {
             }
         }
         let token = fresh();
-        // Written aside and renamed: a token file is whole or not there.
+        // Written to a temporary file and renamed, so that a token file is never partial.
         let aside = self.path.join("token.new");
         let write = || {
             let mut file = private().create(true).truncate(true).open(&aside)?;

@@ -1,18 +1,18 @@
-//! The machine's clock and random source behind the ports.
+//! The system clock and random source, as implementations of the ports.
 
 use crate::app::model::Timestamp;
 use crate::app::ports::{Clock, Ids, SEED_BOUND};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use uuid::Uuid;
 
-/// The machine's clock.
+/// The system clock.
 #[derive(Debug, Clone, Copy)]
 pub struct SystemClock {
     started: Instant,
 }
 
 impl SystemClock {
-    /// A clock whose monotonic time begins now.
+    /// A clock whose monotonic time starts now.
     #[must_use]
     pub fn new() -> Self {
         Self { started: Instant::now() }
@@ -46,12 +46,12 @@ impl Ids for SystemIds {
     }
 
     fn seed(&self) -> u64 {
-        // The high 60 bits of a version 4 UUID but its version are random; 53 of them make a seed.
+        // The high 60 bits of a version 4 UUID are random except for the version; 53 of them form a seed.
         (Uuid::new_v4().as_u128() >> 68) as u64 % SEED_BOUND
     }
 
     fn token(&self) -> String {
-        // 122 random bits each: the two together lose nothing of 128.
+        // 122 random bits each, so that their combination has 128 random bits.
         let (a, b) = (Uuid::new_v4().as_u128(), Uuid::new_v4().as_u128());
         format!("{:032x}", a ^ b.rotate_left(64))
     }
@@ -68,7 +68,7 @@ mod tests {
         assert!(seeds.len() == 1000 && seeds.iter().all(|seed| *seed < SEED_BOUND));
         let tokens: BTreeSet<String> = (0..1000).map(|_| SystemIds.token()).collect();
         assert!(tokens.len() == 1000 && tokens.iter().all(|token| token.len() == 32));
-        // Every hexadecimal digit takes every value: no fixed version digit shows through.
+        // Every hexadecimal digit takes every value, so no fixed version digit shows through.
         for place in 0..32 {
             let digits: BTreeSet<u8> = tokens.iter().map(|token| token.as_bytes()[place]).collect();
             assert_eq!(digits.len(), 16, "digit {place}");

@@ -1,4 +1,5 @@
-//! The paper's Table 1 as an experiment over REST, killed twice on the way: the command line's table to the last digit.
+//! The paper's Table 1 as an experiment over REST, killed twice on the way: the result equals the command line's table
+//! to the last digit.
 
 use super::server::{Server, events};
 use serde_json::{Value, json};
@@ -8,7 +9,7 @@ use std::time::{Duration, Instant};
 const REPETITIONS: u32 = 12;
 const SEED: u32 = 21;
 
-/// What the command line prints.
+/// Output of the command line.
 fn reproduced() -> String {
     let [repetitions, seed] = [REPETITIONS, SEED].map(|number| number.to_string());
     let arguments = ["reproduce", "--table", "1", "--repetitions", &repetitions, "--seed", &seed, "--csv"];
@@ -17,7 +18,7 @@ fn reproduced() -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Waits until so many runs are stored.
+/// Waits until the given number of runs is stored.
 async fn reached(server: &Server, at: &str, runs: u64) -> u64 {
     let started = Instant::now();
     loop {
@@ -47,7 +48,7 @@ async fn table_1_killed_twice_equals_the_command_line_to_the_last_digit() {
         stored.push(reached(&server, &at, runs / share).await);
         server.kill();
         server = Server::start(data.path());
-        // What was stored is still there, and the table can be had on the way.
+        // Everything stored is still there, and the table is available before the end.
         let table = server.get(&format!("{at}/table")).await;
         assert!(table["finished_runs"].as_u64().unwrap() >= *stored.last().unwrap());
     }

@@ -1,4 +1,5 @@
-//! 20 jobs run while the server is killed 10 times: every job ends once, with the bits of a server left alone.
+//! 20 jobs run while the server is killed 10 times: every job ends exactly once, with the bits of an undisturbed
+//! server.
 
 use super::server::{Server, digests, events};
 use serde_json::{Value, json};
@@ -14,7 +15,7 @@ async fn submit(server: &Server, named: &Value, paced: bool) -> Vec<String> {
         request["seed"] = json!(1000 + 10 * number);
         request["repetitions"] = json!(2);
         if paced {
-            // About two seconds a job: long enough to be killed several times.
+            // About two seconds per job: long enough to be killed several times.
             request["max_evaluations_per_s"] = json!(1500.0);
         }
         let job = server.post("/api/v1/jobs", &request).await;
@@ -23,7 +24,7 @@ async fn submit(server: &Server, named: &Value, paced: bool) -> Vec<String> {
     jobs
 }
 
-/// What a server left alone computes.
+/// Results of an undisturbed server.
 async fn reference() -> Vec<Vec<String>> {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
@@ -46,7 +47,7 @@ async fn ten_kills_lose_no_job_double_none_and_change_no_bit() {
     let jobs = submit(&server, &named, true).await;
     let started = Instant::now();
     for kill in 0..KILLS {
-        // At different points of the jobs' cycle of slices and checkpoints.
+        // At varying points of the jobs' cycle of slices and checkpoints.
         tokio::time::sleep(Duration::from_millis(350 + u64::from(kill * 97 % 230))).await;
         server.kill();
         server = Server::start(data.path());

@@ -1,4 +1,4 @@
-//! What a crash, a stop or a pause may not change: black-box tests of a server that is killed while it works.
+//! A crash, a stop or a pause must not change results: black-box tests of a server that is killed while it works.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, helpers included")]
 

@@ -1,4 +1,4 @@
-//! A server of our own in a child process, and what a client does with it.
+//! A server in a child process, and a client for it.
 
 use serde_json::{Value, json};
 use std::io::{BufRead as _, BufReader};
@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A running server; killed when dropped.
+/// A running server; killed on drop.
 pub struct Server {
     child: Child,
     base: String,
@@ -34,13 +34,13 @@ impl Server {
         Self { base: field("http="), token, child, client: reqwest::Client::new() }
     }
 
-    /// SIGKILL: nothing is said, nothing is tidied up.
+    /// Sends SIGKILL: the server gets no chance to clean up.
     pub fn kill(&mut self) {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
     }
 
-    /// SIGTERM; returns how long the server took to exit, and whether it exited well.
+    /// Sends SIGTERM; returns the time until exit and whether the exit code was 0.
     pub fn terminate(&mut self) -> (Duration, bool) {
         let started = Instant::now();
         let sent = Command::new("kill").args(["-TERM", &self.child.id().to_string()]).status().unwrap();
@@ -53,7 +53,7 @@ impl Server {
         self.client.request(method, format!("{}{path}", self.base)).bearer_auth(&self.token)
     }
 
-    /// A GET whose answer is a success, as text.
+    /// GETs a path that must answer with success; returns text.
     pub async fn text(&self, path: &str) -> String {
         let answer = self.request(reqwest::Method::GET, path).send().await.unwrap();
         let (status, text) = (answer.status(), answer.text().await.unwrap());
@@ -61,12 +61,12 @@ impl Server {
         text
     }
 
-    /// A GET whose answer is a success, as JSON.
+    /// GETs a path that must answer with success; returns JSON.
     pub async fn get(&self, path: &str) -> Value {
         serde_json::from_str(&self.text(path).await).unwrap()
     }
 
-    /// A POST whose answer is a success.
+    /// POSTs a body that must be accepted.
     pub async fn post(&self, path: &str, body: &Value) -> Value {
         let request = self.request(reqwest::Method::POST, path).header("content-type", "application/json");
         let answer = request.body(body.to_string()).send().await.unwrap();
@@ -95,7 +95,7 @@ impl Server {
         serde_json::from_str(&upload.body(csv).send().await.unwrap().text().await.unwrap()).unwrap()
     }
 
-    /// Uploads a small action, the shipped arm and the tool's world; returns what an execution names.
+    /// Uploads a small action, the shipped arm and a tool-position world; returns the fields an execution needs.
     pub async fn set_up(&self) -> Value {
         let csv = "time_s,x [mm],y [mm],z [mm]\n0,460,-500,304\n1,420,-590,300\n2,320,-620,294\n3,300,-480,300\n";
         let demonstration = self.upload("arc.csv", csv.to_owned()).await;
@@ -132,7 +132,7 @@ pub async fn digests(server: &Server, job: &Value) -> Vec<String> {
     digests
 }
 
-/// All events of a job that ended.
+/// All events of a finished job.
 pub async fn events(server: &Server, job: &str) -> Vec<Value> {
     let text = server.text(&format!("/api/v1/jobs/{job}/events?after_seq=0")).await;
     text.lines()

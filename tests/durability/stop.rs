@@ -1,4 +1,4 @@
-//! Orderly stops and pauses: checkpoints are written, nothing is computed otherwise than without them.
+//! Orderly stops and pauses: checkpoints are written, and results are the same as without them.
 
 use super::server::{Server, digests};
 use serde_json::json;

@@ -1,10 +1,10 @@
-//! Methods that own a whole run, killed in the middle of it: the bits of a server left alone.
+//! Whole-run methods killed midway: the same bits as on an undisturbed server.
 
 use super::server::{Server, digests, events};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// An action of seven steps of the painted share, and the wall: what an execution of it names.
+/// Creates an action of seven steps of the painted percentage, and a wall; returns the fields an execution needs.
 async fn paint(server: &Server, wax: &Value) -> Value {
     let rows: String = (0..7).map(|step| format!("{step},{}\n", 6.25 * f64::from(step))).collect();
     let demonstration = server.upload("paint.csv", format!("time_s,painted [%]\n{rows}")).await;
@@ -28,7 +28,7 @@ async fn submit(server: &Server, named: &Value, execution: &Value, rate: Option<
     job["id"].as_str().unwrap().to_owned()
 }
 
-/// Waits until the job has made that many evaluations.
+/// Waits until the job has made at least that many evaluations.
 async fn evaluated(server: &Server, job: &str, least: u64) {
     let started = Instant::now();
     loop {

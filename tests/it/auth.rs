@@ -1,4 +1,4 @@
-//! Who is let in, over both protocols.
+//! Authentication over both protocols.
 
 use super::clients::{Grpc, Http, send};
 use super::server::Server;

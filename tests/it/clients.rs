@@ -1,4 +1,4 @@
-//! The clients: reqwest over HTTP, tonic over gRPC, both with the server's token.
+//! Clients of the server: reqwest over HTTP, tonic over gRPC, both with the server's token.
 
 use super::server::Server;
 use cgda::grpc::proto::action_service_client::ActionServiceClient;
@@ -17,14 +17,14 @@ use tonic::service::Interceptor;
 use tonic::service::interceptor::InterceptedService;
 use tonic::transport::{Channel, Endpoint};
 
-/// Over HTTP.
+/// HTTP client.
 pub struct Http {
     client: reqwest::Client,
     address: String,
     token: String,
 }
 
-/// Status, content type and JSON body (null when it is none).
+/// Status, content type and JSON body (null if the body is not JSON).
 #[derive(Debug)]
 pub struct Answer {
     pub status: u16,
@@ -34,18 +34,18 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// A text field.
+    /// The text at a JSON pointer.
     pub fn text(&self, pointer: &str) -> &str {
         self.json.pointer(pointer).and_then(Value::as_str).unwrap_or_else(|| panic!("no {pointer} in {}", self.text))
     }
 
-    /// The answer if it has that status.
+    /// Asserts the status.
     pub fn expect(self, status: u16) -> Self {
         assert_eq!(self.status, status, "{}", self.text);
         self
     }
 
-    /// The answer if it is a problem of that status and code.
+    /// Asserts that the answer is a problem with that status and code.
     pub fn expect_problem(self, status: u16, code: &str) -> Self {
         assert_eq!((self.status, self.json["code"].as_str()), (status, Some(code)), "{}", self.text);
         assert_eq!(self.headers["content-type"], "application/problem+json");
@@ -61,12 +61,12 @@ impl Http {
         Self { client, address: server.address.clone(), token: server.token.clone() }
     }
 
-    /// A request without credentials to a path from the root.
+    /// A request without credentials; `path` is relative to the root.
     pub fn bare(&self, method: Method, path: &str) -> RequestBuilder {
         self.client.request(method, format!("http://{}{path}", self.address))
     }
 
-    /// A request with the token to a path of the API.
+    /// A request with the token; `path` is relative to the API.
     pub fn request(&self, method: Method, path: &str) -> RequestBuilder {
         self.bare(method, &format!("/api/v1{path}")).bearer_auth(&self.token)
     }
@@ -80,7 +80,7 @@ impl Http {
     }
 }
 
-/// Sends it and reads the whole answer.
+/// Sends a request and reads the whole answer.
 pub async fn send(request: RequestBuilder) -> Answer {
     let response = request.send().await.unwrap();
     let (status, headers) = (response.status().as_u16(), response.headers().clone());
@@ -89,7 +89,7 @@ pub async fn send(request: RequestBuilder) -> Answer {
     Answer { status, headers, text, json }
 }
 
-/// Puts the token into the metadata.
+/// Adds the token to the metadata.
 #[derive(Clone)]
 pub struct Token(MetadataValue<Ascii>);
 
@@ -102,7 +102,7 @@ impl Interceptor for Token {
 
 type Guarded = InterceptedService<Channel, Token>;
 
-/// Over gRPC.
+/// gRPC client.
 pub struct Grpc {
     pub demonstrations: DemonstrationServiceClient<Guarded>,
     pub actions: ActionServiceClient<Guarded>,

@@ -1,4 +1,4 @@
-//! Errors: every one a problem with a stable code, its place, and the same meaning over both protocols.
+//! Errors: each is a problem with a stable code and its place, with the same meaning over both protocols.
 
 use super::clients::{Grpc, Http, send};
 use super::server::Server;

@@ -1,4 +1,4 @@
-//! Server-sent events: order, durable ids, resumption, the end.
+//! Server-sent events: order, durable ids, resumption, end of stream.
 
 use super::clients::{Http, send};
 use super::server::Server;

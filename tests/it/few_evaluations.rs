@@ -1,4 +1,4 @@
-//! A job of a dozen evaluations: the method by its name, its trials, what is out of reach, and earlier runs.
+//! A job of a few-evaluation method: method by name, trials, goals out of reach, earlier runs.
 
 use super::clients::{Grpc, Http};
 use super::server::Server;

@@ -1,4 +1,4 @@
-//! gRPC health says what `/readyz` says.
+//! gRPC health agrees with `/readyz`.
 
 use super::clients::{Http, send};
 use super::server::Server;

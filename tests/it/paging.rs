@@ -1,4 +1,4 @@
-//! Keyset paging: every item once, newest first, tokens that fit their list only.
+//! Keyset paging: every item once, newest first; a token is valid only for its own list.
 
 use super::clients::{Grpc, Http};
 use super::server::Server;

@@ -1,4 +1,5 @@
-//! The same use-case answers alike over HTTP and gRPC: the main job over gRPC, compared field by field and bit by bit.
+//! The same use case behaves the same over HTTP and gRPC: the main job over gRPC, compared field by field and bit by
+//! bit.
 
 use super::clients::{Grpc, Http};
 use super::server::Server;
@@ -9,7 +10,7 @@ use proto::upload_request::Part;
 use serde_json::{Value, json};
 use tonic::Code;
 
-/// The main job's inputs, made over gRPC.
+/// Creates the main job's inputs over gRPC.
 async fn prepare_over_grpc(grpc: &mut Grpc) -> Made {
     let mut ids = Vec::new();
     for (name, bytes) in demonstrations() {

@@ -1,4 +1,4 @@
-//! `cgda serve` as a child process on a free port with a data directory of its own; killed when dropped.
+//! `cgda serve` as a child process on a free port with its own data directory; killed on drop.
 
 use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -6,7 +6,7 @@ use std::sync::mpsc;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// Longest start-up.
+/// Maximum time for start-up.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 /// A running server.
@@ -15,17 +15,17 @@ pub struct Server {
     data: TempDir,
     /// `127.0.0.1:PORT`.
     pub address: String,
-    /// What opens it.
+    /// Access token.
     pub token: String,
 }
 
 impl Server {
-    /// A new server with nothing in it.
+    /// Starts a server with an empty data directory.
     pub fn start() -> Self {
         Self::start_in(TempDir::new().unwrap(), &[])
     }
 
-    /// As [`Server::start`] with more environment variables.
+    /// Like [`Server::start`], with additional environment variables.
     pub fn start_with(environment: &[(&str, &str)]) -> Self {
         Self::start_in(TempDir::new().unwrap(), environment)
     }
@@ -50,13 +50,13 @@ impl Server {
         Self { child, data, address, token }
     }
 
-    /// SIGTERM; does not wait for the end.
+    /// Sends SIGTERM without waiting for the end.
     pub fn ask_to_stop(&self) {
         let sent = Command::new("kill").args(["-TERM", &self.child.id().to_string()]).status().unwrap();
         assert!(sent.success());
     }
 
-    /// Ends it as a power cut would and starts it again on the same data.
+    /// Kills the server as a power cut would and restarts it on the same data.
     pub fn kill_and_restart(mut self) -> Self {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
@@ -72,7 +72,7 @@ impl Drop for Server {
     }
 }
 
-/// Address and token of the ready-to-open URL.
+/// Parses address and token from the ready line.
 fn ready_line(line: &str) -> Option<(String, String)> {
     let (_, rest) = line.split_once("url=http://")?;
     let (address, rest) = rest.split_once("/?token=")?;

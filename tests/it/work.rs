@@ -1,4 +1,4 @@
-//! The main job in pieces: the shipped wax demonstrations, the shipped arm, the world of tool positions.
+//! Building blocks of the main job: the shipped wax demonstrations, the shipped arm, a tool-position world.
 
 use super::clients::{Answer, Http, send};
 use reqwest::Method;
@@ -11,7 +11,7 @@ pub fn demonstrations() -> Vec<(String, Vec<u8>)> {
     (1..=4).map(|i| (name(i), example(&format!("demonstrations/wax/demo-{i}.csv")))).collect()
 }
 
-/// A file of `examples/`.
+/// Content of a file of `examples/`.
 pub fn example(path: &str) -> Vec<u8> {
     std::fs::read(format!("{}/examples/{path}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
@@ -26,17 +26,17 @@ pub fn robot() -> Value {
     json!({"name": "right arm", "urdf": urdf, "spec": spec})
 }
 
-/// Positions of the tool, millimetres.
+/// World that observes the tool's position, mm.
 pub fn world() -> Value {
     json!({"name": "tool", "spec": {"kind": "tool_position", "unit": "mm"}})
 }
 
-/// A short search: enough to find something, quick in a debug build.
+/// A short search that finds something, yet is quick in a debug build.
 pub fn execution() -> Value {
     json!({"method": {"name": "sst", "population": 10, "stagnation": 2}, "metric": "multivariate"})
 }
 
-/// What one execution needs, made over HTTP.
+/// Ids of an execution's inputs, created over HTTP.
 pub struct Made {
     pub demonstrations: Vec<String>,
     pub action: String,
@@ -44,7 +44,7 @@ pub struct Made {
     pub world: String,
 }
 
-/// Uploads, generalizes, and makes robot and world.
+/// Uploads, generalizes, and creates robot and world.
 pub async fn prepare(http: &Http) -> Made {
     let mut ids = Vec::new();
     for (name, bytes) in demonstrations() {
@@ -59,7 +59,7 @@ pub async fn prepare(http: &Http) -> Made {
     Made { demonstrations: ids, action, robot, world }
 }
 
-/// An execution of what was made.
+/// An execution of the prepared inputs.
 pub fn job(made: &Made, seed: u64, repetitions: u32) -> Value {
     json!({"kind": "execution", "action": made.action, "robot": made.robot, "world": made.world,
         "execution": execution(), "seed": seed, "repetitions": repetitions})
@@ -71,14 +71,14 @@ pub async fn upload(http: &Http, name: &str, bytes: Vec<u8>) -> Answer {
     send(http.request(Method::POST, &path).header("content-type", "text/csv").body(bytes)).await
 }
 
-/// The job once it is final; it must have succeeded.
+/// Waits until the job is final and asserts that it succeeded.
 pub async fn finished(http: &Http, id: &str) -> Answer {
     let job = ended(http, id).await;
     assert_eq!(job.text("/state"), "SUCCEEDED", "{}", job.text);
     job
 }
 
-/// The job once it is final.
+/// Waits until the job is final.
 pub async fn ended(http: &Http, id: &str) -> Answer {
     for _ in 0..600 {
         let job = http.get(&format!("/jobs/{id}")).await.expect(200);
@@ -90,7 +90,7 @@ pub async fn ended(http: &Http, id: &str) -> Answer {
     panic!("job {id} did not end within a minute");
 }
 
-/// The digests of a job's runs, by repetition.
+/// Digests of a job's runs, by repetition.
 pub async fn digests(http: &Http, job: &str) -> Vec<String> {
     let runs = http.get(&format!("/runs?job={job}")).await.expect(200);
     let mut runs: Vec<Value> = runs.json["items"].as_array().unwrap().clone();

@@ -1,14 +1,14 @@
-//! `cgda run --dry-run`: what the problem would cost, by the same preview and in the same words as the service's.
+//! `cgda run --dry-run`: the estimated cost, from the same preview and in the same words as the service's.
 
 use super::seeded::Seeded;
 use crate::framework::execution::{Chosen, Preview, in_words};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// How long the first repetition may be simulated.
+/// Maximum time spent on simulating the first repetition.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// The object on stdout; its shape is stable.
+/// JSON object on stdout; its shape is stable.
 #[derive(Serialize)]
 struct Report<'a> {
     preset: &'a str,
@@ -20,7 +20,7 @@ struct Report<'a> {
     basis: String,
 }
 
-/// The cost of `repetitions` runs, as text or one JSON object.
+/// Estimated cost of `repetitions` runs, as text or as one JSON object.
 pub(super) fn report(
     seeded: &Seeded,
     seed: u64,

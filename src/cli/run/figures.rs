@@ -1,10 +1,10 @@
-//! What many runs of one problem amount to: mean, median and p90 of each figure, and the share that is good enough.
+//! Summary of many runs of one problem: mean, median and p90 of each figure, and the share of runs below a threshold.
 
 use crate::framework::execution::RunResult;
 use crate::framework::experiment::Summary;
 use serde::Serialize;
 
-/// One statistic of each figure.
+/// One statistic over all runs, for each figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Statistic {
     pub evaluations: f64,
@@ -12,7 +12,7 @@ pub(super) struct Statistic {
     pub painted_percent: Option<f64>,
 }
 
-/// How many runs reach a discrepancy.
+/// Share of the runs below a discrepancy threshold.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Reached {
     pub discrepancy: f64,
@@ -20,7 +20,7 @@ pub(super) struct Reached {
     pub share: f64,
 }
 
-/// Everything told of all runs together.
+/// All statistics over a set of runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Figures {
     pub mean: Statistic,
@@ -30,7 +30,7 @@ pub(super) struct Figures {
 }
 
 impl Figures {
-    /// Of `runs`, none without any; `threshold` in the features' unit.
+    /// Statistics of `runs`, `None` if there are none; `threshold` is in the features' unit.
     pub(super) fn of(runs: &[RunResult], threshold: Option<f64>) -> Option<Self> {
         let over = |value: fn(&RunResult) -> f64| Summary::of(&runs.iter().map(value).collect::<Vec<f64>>());
         let evaluations = over(|r| r.evaluations as f64)?;

@@ -1,4 +1,4 @@
-//! What `cgda run` prints and writes.
+//! Output of `cgda run`: text, JSON and trajectory files.
 
 use super::figures::Figures;
 use super::seeded::Seeded;
@@ -11,12 +11,12 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// The object on stdout; its shape is stable.
+/// JSON object on stdout; its shape is stable.
 #[derive(Serialize)]
 struct Report<'a> {
     preset: &'a str,
     method: &'static str,
-    /// Why this method, where `auto` stood for it.
+    /// Reason for the method; `None` unless `auto` chose it.
     #[serde(skip_serializing_if = "Option::is_none")]
     chosen: Option<&'a Chosen>,
     seed: u64,
@@ -46,7 +46,7 @@ struct Goal {
     stop_reason: crate::framework::method::per_goal::StopReason,
 }
 
-/// One JSON object.
+/// The result of all runs as one JSON object.
 pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[RunResult], figures: Figures) -> anyhow::Result<String> {
     let named = &seeded.named;
     let report = Report {
@@ -81,13 +81,13 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[RunResult], figures: Figu
     Ok(format!("{}\n", serde_json::to_string(&report)?))
 }
 
-/// A line that says which method was chosen and why; empty where none had to be.
+/// A line with the chosen method and the reason; empty unless `auto` chose it.
 pub(super) fn method(named: &Preset) -> String {
     let chosen = named.problem.execution.chosen.as_ref();
     chosen.map_or_else(String::new, |Chosen { method, reason }| format!("method {method}: {reason}\n"))
 }
 
-/// The goals of the best run, and what all runs amount to.
+/// Table of the best run's goals, followed by the statistics over all runs.
 pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> String {
     let unit = named.problem.goals.features().first().map_or("", |f| f.unit.as_str());
     let mut text = format!("{}: {}\n{}", named.name, named.description, method(named));
@@ -122,7 +122,7 @@ pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> St
         }
         let _ = write!(
             text,
-            "{name} of {} runs: {:.1} evaluations, discrepancy {:.3} {unit}",
+            "{name} over {} runs: {:.1} evaluations, discrepancy {:.3} {unit}",
             runs.len(),
             statistic.evaluations,
             statistic.discrepancy

@@ -1,4 +1,4 @@
-//! Which problem `cgda run` runs: a preset, or demonstrations with a robot and a world.
+//! The problem that `cgda run` executes: a preset, or demonstrations with a robot and a world.
 
 use super::reality::{RealityArguments, SurfaceArguments};
 use crate::cli::demonstrations::{ReadArguments, read_demonstrations};
@@ -13,56 +13,56 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct ProblemArguments {
-    /// Demonstrations: a file is one of a single stream, a directory one of a stream in each file.
+    /// Demonstrations: a file is one with a single stream, a directory one with a stream per file.
     #[arg(conflicts_with = "preset", required_unless_present = "preset")]
     files: Vec<PathBuf>,
-    /// A shipped one (an unknown name lists them), or the path of a TOML file.
+    /// Name of a shipped preset (an unknown name lists them), or path of a TOML file.
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// Optimisation method, with the preset's own parameters where it has some.
+    /// Optimisation method, with the preset's own parameters for it if it has any.
     #[arg(long, value_parser = clap::builder::PossibleValuesParser::new(MethodSpec::NAMES))]
     method: Option<String>,
-    /// A goal ends when an observation is this near to it (Euclidean, features' unit).
+    /// End a goal once an observation is this close to it (Euclidean, features' unit).
     #[arg(long)]
     tolerance: Option<f64>,
-    /// A goal ends when the discrepancy is at most this (features' unit).
+    /// End a goal once the discrepancy is at most this (features' unit).
     #[arg(long)]
     target_discrepancy: Option<f64>,
-    /// A goal ends after this many evaluations.
+    /// End a goal after this many evaluations.
     #[arg(long, value_name = "EVALUATIONS")]
     max_evaluations_per_goal: Option<u64>,
     #[command(flatten)]
     reality: RealityArguments,
     #[command(flatten)]
     surface: SurfaceArguments,
-    /// How discrepancies are measured.
+    /// Metric of the discrepancy.
     #[arg(long, value_enum)]
     metric: Option<Metric>,
-    /// The robot: a URDF file.
+    /// URDF file of the robot.
     #[arg(long, value_name = "URDF", required_unless_present = "preset", conflicts_with = "preset")]
     robot: Option<PathBuf>,
-    /// First link of the chain; the root when absent.
+    /// First link of the chain; the root if absent.
     #[arg(long, value_name = "LINK", conflicts_with = "preset")]
     base_link: Option<String>,
-    /// Last link of the chain; the only leaf when absent.
+    /// Last link of the chain; the only leaf if absent.
     #[arg(long, value_name = "LINK", conflicts_with = "preset")]
     tip_link: Option<String>,
-    /// Joint to search, in gene order; may be repeated, all movable when absent.
+    /// Joint to search, in gene order; may be repeated; all movable joints if absent.
     #[arg(long = "free", value_name = "JOINT", conflicts_with = "preset")]
     free: Vec<String>,
-    /// Joint held at a value (rad or m); may be repeated.
+    /// Joint held at a constant value (rad or m); may be repeated.
     #[arg(long = "fixed", value_name = "JOINT=VALUE", value_parser = joint_value, conflicts_with = "preset")]
     fixed: Vec<(String, f64)>,
-    /// The world: a TOML file.
+    /// TOML file of the world.
     #[arg(long, value_name = "FILE", required_unless_present = "preset", conflicts_with = "preset")]
     world: Option<PathBuf>,
-    /// Time of one goal; n = mean duration / this.
+    /// T_min, the duration of one goal in seconds; n = mean duration / T_min.
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0, conflicts_with = "preset")]
     t_min: f64,
-    /// Whether each demonstration counts alike, or each sample.
+    /// Whether every demonstration or every sample has the same weight.
     #[arg(long, value_enum, default_value_t = Weighting::PerDemonstration, conflicts_with = "preset")]
     weighting: Weighting,
-    /// Feature to keep; may be repeated, all when absent.
+    /// Feature to keep; may be repeated; all if absent.
     #[arg(long = "feature", value_name = "NAME", conflicts_with = "preset")]
     features: Vec<String>,
     #[command(flatten)]
@@ -75,7 +75,7 @@ fn joint_value(argument: &str) -> Result<(String, f64), String> {
     Ok((joint.to_owned(), value.parse().map_err(|_| help)?))
 }
 
-/// The problem the arguments name.
+/// Builds the problem described by the arguments.
 pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
     let named = match &arguments.preset {
         Some(name) => read_preset(name)?,
@@ -84,7 +84,7 @@ pub(super) fn read(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
     adjusted(named, arguments)
 }
 
-/// Preset `name`, executed as the arguments say.
+/// Preset `name` with the execution options of the arguments.
 pub(super) fn read_like(arguments: &ProblemArguments, name: &str) -> anyhow::Result<Preset> {
     adjusted(read_preset(name)?, arguments)
 }

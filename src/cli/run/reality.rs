@@ -1,4 +1,4 @@
-//! What the simulated real world is like, and what a method is told of it.
+//! Options for the simulated real world and for what the method knows about it.
 
 use crate::framework::execution::Problem;
 use crate::framework::method::per_goal::MethodSpec;
@@ -7,28 +7,29 @@ use crate::framework::world::{RealitySpec, SurfaceView, WorldSpec};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RealityArguments {
-    /// What method model believes before its first trial; with a simulator the real robot is simulated unlike it, as by
+    /// Prior knowledge of method model; with a simulator, the simulated real robot differs from its description as with
     /// --distort.
     #[arg(long, value_enum)]
     prior: Option<PriorArgument>,
-    /// The real robot is simulated unlike its description: links 5 % and base 20 mm off, drawn by the seed.
+    /// Simulate a real robot that differs from its description: link lengths off by up to 5 %, base by up to 20 mm,
+    /// drawn from the seed.
     #[arg(long)]
     distort: bool,
-    /// The real world is simulated with a sensor noise of 2 mm and a joint noise of 0.1 degrees, and the method is told.
+    /// Simulate 2 mm of sensor noise and 0.1 degrees of joint noise, and tell the method about it.
     #[arg(long)]
     noise: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum PriorArgument {
-    /// Nothing is known.
+    /// No prior knowledge.
     None,
-    /// The robot and world as described.
+    /// The robot and world as described, used as a simulator.
     Simulator,
 }
 
 impl RealityArguments {
-    /// Makes the simulated real world of `problem` unlike its description, and tells the method what it may know.
+    /// Applies the options to the simulated real world of `problem` and to the method's knowledge of it.
     pub fn apply(&self, problem: &mut Problem) {
         if self.prior.is_none() && !self.noise && !self.distort {
             return;
@@ -47,7 +48,7 @@ impl RealityArguments {
             reality.sensor_noise = per_mm.map_or(0.0, |mm| 2.0 * mm);
         }
         problem.execution.reality = Some(reality);
-        // sensor, and what 0.1 degrees in a few joints do half a metre away
+        // Sensor noise plus the effect of 0.1 degrees in a few joints half a metre away.
         self.tell(&mut problem.execution.method, per_mm.map_or(0.0, |mm| 2.5 * mm));
     }
 
@@ -70,16 +71,16 @@ impl RealityArguments {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct SurfaceArguments {
-    /// A surface cannot be put back between trials.
+    /// The surface cannot be reset between trials.
     #[arg(long)]
     no_reset: bool,
-    /// The painted cells of a surface are seen, not only their share.
+    /// The painted cells of a surface are observed, not only their percentage.
     #[arg(long)]
     cells: bool,
 }
 
 impl SurfaceArguments {
-    /// Makes a world of coverage as they say; other worlds have no surface.
+    /// Applies the options to a coverage world; other worlds have no surface.
     pub fn apply(&self, world: &mut WorldSpec) {
         if let WorldSpec::Coverage(coverage) = world {
             coverage.resets &= !self.no_reset;

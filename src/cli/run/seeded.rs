@@ -1,4 +1,4 @@
-//! What of a run's problem depends on its seed: where the robot starts, and what it did before.
+//! The seed-dependent parts of a problem: the robot's start pose and its earlier trials.
 
 use crate::framework::execution::{Iet, Problem, simulate};
 use crate::framework::method::whole_run::{Space, Trial};
@@ -7,30 +7,30 @@ use crate::framework::random::RandomStream;
 use crate::framework::robot::{Chain, RobotModel, RobotSpec};
 use anyhow::{Context as _, bail};
 
-/// A problem to run for many seeds.
+/// A problem to run with many seeds.
 pub(super) struct Seeded {
     pub named: Preset,
-    /// The action executed before on the same robot, its trials this run's first knowledge.
+    /// Action executed before each run on the same robot; its trials are the run's initial knowledge.
     pub after: Option<Preset>,
-    /// Whether the robot starts in a pose drawn by the seed.
+    /// Whether the robot starts in a pose drawn from the seed.
     pub random_start: bool,
 }
 
 impl Seeded {
-    /// The two actions fit together: one robot, one world, a method that learns from trials.
+    /// Checks that the two actions fit together: same robot, same world, a method that learns from trials.
     pub(super) fn new(named: Preset, after: Option<Preset>, random_start: bool) -> anyhow::Result<Self> {
         if let Some(before) = &after {
             if named.problem.execution.method.name() != "model" {
                 bail!("--after needs --method model: no other method learns from trials of an earlier action");
             }
             if !is_same_robot(&named.problem, &before.problem) {
-                bail!("--after {}: that is another robot or world than {}'s", before.name, named.name);
+                bail!("--after {}: its robot or world differs from {}'s", before.name, named.name);
             }
         }
         Ok(Self { named, after, random_start })
     }
 
-    /// The problem of one seed.
+    /// The problem for one seed.
     pub(super) fn problem(&self, seed: u64) -> anyhow::Result<Problem> {
         let mut problem = self.named.problem.clone();
         if self.random_start {
@@ -42,7 +42,7 @@ impl Seeded {
         Ok(problem)
     }
 
-    /// The trials of `before`, executed on the robot of `seed`.
+    /// Executes `before` on the robot of `seed` and returns its trials.
     fn trials_of(&self, before: &Preset, seed: u64) -> anyhow::Result<Vec<Trial>> {
         let mut problem = before.problem.clone();
         if self.random_start {
@@ -55,7 +55,7 @@ impl Seeded {
     }
 }
 
-/// Whether both move the same joints of the same robot in the same world; limits and start may differ.
+/// Whether both problems move the same joints of the same robot in the same world; limits and start may differ.
 fn is_same_robot(one: &Problem, other: &Problem) -> bool {
     let there = RobotSpec {
         limits: one.robot.limits.clone(),
@@ -66,7 +66,7 @@ fn is_same_robot(one: &Problem, other: &Problem) -> bool {
     one.urdf == other.urdf && one.robot == there && one.world == other.world
 }
 
-/// The robot with a start drawn uniformly within its limits by `seed`.
+/// The robot with a start pose drawn from `seed`, uniformly within its limits.
 fn started_anywhere(problem: &Problem, seed: u64) -> anyhow::Result<RobotSpec> {
     let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
     let mut pose = chain.home().to_vec();

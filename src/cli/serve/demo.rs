@@ -1,5 +1,5 @@
-//! What `--demo` fills an empty database with: everything goes through the service as a user would do it, so that what
-//! is shown was really computed.
+//! Content of `--demo`. Everything goes through the service as if a user had done it, so that everything shown was
+//! really computed.
 
 use crate::app::App;
 use crate::app::model::{
@@ -28,7 +28,7 @@ const PAINT: [Shipped; 4] = [
     ("paint 4", include_bytes!("../../../examples/demonstrations/paint/demo-4.csv")),
 ];
 
-/// One action of the demo.
+/// One action of the demo, with its robot, world and method.
 struct Scene {
     /// Name of the action.
     action: &'static str,
@@ -36,7 +36,7 @@ struct Scene {
     preset: &'static str,
     world: &'static str,
     seed: u64,
-    /// Slow enough to be watched.
+    /// Slow enough to watch.
     evaluations_per_s: f64,
 }
 
@@ -59,13 +59,13 @@ const SCENES: [Scene; 2] = [
     },
 ];
 
-/// Time between two goals of the shipped demonstrations.
+/// Time between two goals of the shipped demonstrations, s.
 const T_MIN_S: f64 = 1.0;
 
-/// Fills an empty database; one that is not empty stays as it is.
+/// Fills an empty database; does nothing if it is not empty.
 pub(super) async fn fill(app: App) {
     match fill_if_empty(&app).await {
-        Ok(true) => tracing::info!("the demo's jobs are submitted"),
+        Ok(true) => tracing::info!("submitted the demo's jobs"),
         Ok(false) => tracing::info!("the database is not empty: the demo is not added"),
         Err(error) => tracing::error!(error = %error, cause = ?error.source, "the demo could not be set up"),
     }
@@ -126,7 +126,7 @@ async fn generalize(app: &App, name: &str, demonstrations: Vec<DemonstrationId>)
     made(app, &job.id).await
 }
 
-/// The action of a generalization, once it is there.
+/// The action of a generalization, once the job has succeeded.
 async fn made(app: &App, id: &JobId) -> Result<ActionId, AppError> {
     let mut seen = 0;
     loop {
@@ -136,7 +136,7 @@ async fn made(app: &App, id: &JobId) -> Result<ActionId, AppError> {
         }
         if job.state.is_final() {
             let why = job.state_reason.unwrap_or_default();
-            return Err(AppError::new(ErrorKind::Conflict, "no_action", format!("{id} made no action: {why}")));
+            return Err(AppError::new(ErrorKind::Conflict, "no_action", format!("{id} did not create an action: {why}")));
         }
         seen = job.last_seq;
     }

@@ -1,18 +1,18 @@
-//! Checks between streams of one demonstration and between demonstrations: clocks, lengths, copies.
+//! Checks between streams of one demonstration and between demonstrations: clock offsets, durations, duplicates.
 
 use super::table::Findings;
 use super::{ClockPolicy, Finding, FindingCode, Stream};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
-/// Starts of streams recorded together may differ this much, seconds.
+/// Largest accepted difference between the starts of streams recorded together, seconds.
 const START_TOLERANCE_S: f64 = 1.0;
-/// Durations of streams recorded together may differ by this share of the longest ..
+/// Largest accepted difference between their durations, as a share of the longest.
 const DURATION_TOLERANCE: f64 = 0.05;
-/// .. or by this, seconds.
+/// Differences of at most this many seconds are always accepted.
 const DURATION_TOLERANCE_S: f64 = 0.5;
 
-/// Reports clocks that disagree, lengths that differ, and streams that are copies.
+/// Reports clock offsets, differing durations and duplicate streams.
 pub(super) fn check_streams(streams: &[Stream], policy: ClockPolicy, findings: &mut Findings) {
     if streams.len() < 2 {
         return;
@@ -25,7 +25,7 @@ pub(super) fn check_streams(streams: &[Stream], policy: ClockPolicy, findings: &
     }
 }
 
-/// Against the stream that starts in the middle of all, so that one wrong clock among several is the one reported.
+/// Compares every stream with the one whose start is the median, so that a single wrong clock is the one reported.
 fn report_clock_offsets(streams: &[Stream], policy: ClockPolicy, findings: &mut Findings) {
     let mut by_start: Vec<&Stream> = streams.iter().collect();
     by_start.sort_by(|a, b| a.time_s()[0].total_cmp(&b.time_s()[0]));
@@ -40,7 +40,7 @@ fn report_clock_offsets(streams: &[Stream], policy: ClockPolicy, findings: &mut 
             ClockPolicy::AsRecorded => ("", "set `clock_policy` to `align_by_start` if they were recorded together"),
             ClockPolicy::AlignByStart => (
                 "; both now start at 0 s",
-                "nothing to do; set `clock_policy` to `as_recorded` if the streams really start apart",
+                "none needed; set `clock_policy` to `as_recorded` if the streams really start at different times",
             ),
         };
         let message = format!("the clock is {:.3} s {direction} that of {:?}{done}", offset_s.abs(), reference.name());
@@ -57,17 +57,17 @@ fn report_durations(streams: &[Stream], findings: &mut Findings) {
     let allowed_s = DURATION_TOLERANCE_S.max(DURATION_TOLERANCE * longest.duration_s());
     for stream in streams.iter().filter(|s| longest.duration_s() - s.duration_s() > allowed_s) {
         let message = format!(
-            "lasts {:.3} s, where {:?} lasts {:.3} s",
+            "lasts {:.3} s, but {:?} lasts {:.3} s",
             stream.duration_s(),
             longest.name(),
             longest.duration_s()
         );
-        let remedy = "check that the stream was recorded to the end and belongs to this demonstration";
+        let remedy = "check that the recording is complete and belongs to this demonstration";
         findings.push(Finding::warning(FindingCode::DurationMismatch, message, remedy).in_stream(stream.name()));
     }
 }
 
-/// SHA-256 over the bits of times and values, as hex: equal for copies whatever their format and names.
+/// SHA-256 over the bits of times and values, as hex; independent of format and names, so equal for copies.
 #[must_use]
 pub fn content_hash(stream: &Stream) -> String {
     let mut hash = Sha256::new();
@@ -78,16 +78,16 @@ pub fn content_hash(stream: &Stream) -> String {
     hex::encode(hash.finalize())
 }
 
-/// Which of the labelled hashes occur again, one warning for each copy; use it over streams of one demonstration or
-/// over those of several (label: demonstration and stream).
+/// One warning for every repeated hash. The labels identify what was hashed: streams of one demonstration, or, across
+/// several, demonstration and stream.
 #[must_use]
 pub fn duplicate_content(hashes: &[(String, String)]) -> Vec<Finding> {
     let mut first: BTreeMap<&str, &str> = BTreeMap::new();
     let mut findings = Vec::new();
     for (label, hash) in hashes {
         if let Some(original) = first.get(hash.as_str()) {
-            let message = format!("the samples are the same as those of {original:?}");
-            let remedy = "upload the recording that was meant; a copy gives one showing double weight";
+            let message = format!("the samples are identical to those of {original:?}");
+            let remedy = "upload the intended recording; a copy gives one demonstration double weight";
             findings.push(Finding::warning(FindingCode::DuplicateContent, message, remedy).in_stream(label));
         } else {
             first.insert(hash, label);

@@ -1,15 +1,15 @@
-//! CSV with a header line: one time column, the others are features; `x [mm]` or `x (mm)` gives a unit. Separated by
-//! comma, semicolon or tab; `#` begins a comment line; quotes as in RFC 4180.
+//! CSV with a header line: one time column, all others are features; `x [mm]` or `x (mm)` gives a unit. The separator
+//! is comma, semicolon or tab; `#` starts a comment line; quoting follows RFC 4180.
 
 use super::table::{Findings, Place, Table, check_magnitude, number, quote};
 use super::{Finding, FindingCode, ReadOptions, text};
 use crate::Feature;
 use ::csv::{ReaderBuilder, StringRecord, Trim};
 
-/// Headers of a time column, in lower case, where none is named.
+/// Recognized headers of the time column, in lower case, if the options name none.
 const TIME_COLUMNS: [&str; 4] = ["time", "time_s", "t", "timestamp"];
 
-/// Columns of the file: where time stands, how many seconds its unit has, and the features of all others.
+/// Layout of the file: the time column, its unit in seconds, and the features in the other columns.
 struct Header {
     names: Vec<String>,
     time: usize,
@@ -48,7 +48,7 @@ pub(super) fn parse(content: &str, stream: &str, options: &ReadOptions, findings
     Some(table)
 }
 
-/// Whichever of comma, semicolon, tab is most frequent in the first line that is not a comment.
+/// The most frequent of comma, semicolon and tab in the first line that is not a comment.
 fn delimiter(content: &str) -> u8 {
     let first = content.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#')).unwrap_or_default();
     let count = |byte: u8| first.bytes().filter(|b| *b == byte).count();
@@ -61,7 +61,7 @@ fn next(reader: &mut ::csv::Reader<&[u8]>, record: &mut StringRecord, stream: &s
         Err(error) => {
             let row = error.position().map_or(0, ::csv::Position::line);
             findings.push(
-                Finding::error(FindingCode::RaggedRow, error.to_string(), "write the row as RFC 4180 says")
+                Finding::error(FindingCode::RaggedRow, error.to_string(), "quote the row as RFC 4180 requires")
                     .in_stream(stream)
                     .at_row(row),
             );
@@ -76,8 +76,8 @@ fn header(record: &StringRecord, stream: &str, options: &ReadOptions, findings: 
         None
     };
     if record.iter().all(|cell| cell.parse::<f64>().is_ok()) {
-        let remedy = "begin the file with a line of column names such as `time,x [mm]`, or give the format `yarp`";
-        return refuse(findings, FindingCode::MissingHeader, "the first row holds numbers only".to_owned(), remedy);
+        let remedy = "start the file with a line of column names such as `time,x [mm]`, or set the format to `yarp`";
+        return refuse(findings, FindingCode::MissingHeader, "the first row contains only numbers".to_owned(), remedy);
     }
     let columns: Vec<Feature> = record.iter().map(Feature::from_header).collect();
     let names: Vec<String> = columns.iter().map(|c| c.name.clone()).collect();
@@ -104,8 +104,8 @@ fn header(record: &StringRecord, stream: &str, options: &ReadOptions, findings: 
         .map(|(_, column)| Feature::new(column.name.clone(), unit_of(column)))
         .collect();
     if features.is_empty() {
-        let message = "there is a time column only".to_owned();
-        return refuse(findings, FindingCode::TooSmall, message, "add a column for each feature");
+        let message = "there is only a time column".to_owned();
+        return refuse(findings, FindingCode::TooSmall, message, "add one column per feature");
     }
     if features.len() > options.limits.features {
         let limit = format!("{} features", options.limits.features);
@@ -113,8 +113,8 @@ fn header(record: &StringRecord, stream: &str, options: &ReadOptions, findings: 
         return None;
     }
     if let Some(unknown) = options.units.keys().find(|name| !names.contains(name)) {
-        let message = format!("a unit is given for {}, which is no column", quote(unknown));
-        return refuse(findings, FindingCode::BadOption, message, "give units for columns of the file");
+        let message = format!("a unit is given for {}, which is not a column", quote(unknown));
+        return refuse(findings, FindingCode::BadOption, message, "give units only for columns of the file");
     }
     Some(Header { names, time, seconds_per_unit, features })
 }
@@ -156,13 +156,13 @@ fn ragged(record: &StringRecord, columns: usize) -> Finding {
     if found == 2 * columns && record.iter().all(|cell| cell.parse::<i64>().is_ok()) {
         return Finding::error(
             FindingCode::DecimalComma,
-            format!("{found} whole numbers for {columns} columns: decimal commas in a comma separated file"),
-            "write numbers with a decimal point, or separate columns by semicolon",
+            format!("{found} whole numbers for {columns} columns: decimal commas in a comma-separated file"),
+            "write numbers with a decimal point, or separate columns with semicolons",
         );
     }
     Finding::error(
         FindingCode::RaggedRow,
-        format!("{found} cells where the header has {columns}"),
+        format!("{found} cells, but the header has {columns}"),
         "complete or remove the row",
     )
 }

@@ -1,45 +1,45 @@
-//! What ingest finds in a file: each finding names its place, a stable code and a remedy.
+//! Findings: each names its place in the file, a stable code and a remedy.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Whether a finding refuses the file.
+/// Severity of a finding: whether it rejects the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
-    /// The file is refused.
+    /// The file is rejected.
     Error,
-    /// The file is accepted; the finding is kept with it.
+    /// The file is accepted; the finding is stored with it.
     Warning,
 }
 
-/// What was found; the snake_case form is stable.
+/// Kind of a finding; the snake_case form is stable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FindingCode {
-    /// Nothing in the file but space.
+    /// The file is empty or holds only whitespace.
     Empty,
     /// Not UTF-8 text, or text with control characters.
     NotText,
     /// Larger than a limit: bytes, line, samples, features, streams.
     TooLarge,
-    /// Fewer than two samples or no feature.
+    /// Fewer than two samples or no features.
     TooSmall,
-    /// Not JSON of the canonical form.
+    /// Not valid JSON, or not in the canonical form.
     JsonSyntax,
-    /// No header where one is needed.
+    /// The required header is missing.
     MissingHeader,
     /// The header has no time column.
     MissingTime,
-    /// Two columns of one name.
+    /// Two columns have the same name.
     DuplicateColumn,
-    /// Two streams of one name.
+    /// Two streams have the same name.
     DuplicateStream,
-    /// A name or unit with other characters or longer than allowed.
+    /// A name or unit is too long or contains characters that are not allowed.
     BadName,
-    /// The options do not fit the file.
+    /// The options do not match the file.
     BadOption,
-    /// A row of another length than the first.
+    /// A row's length differs from the first row's.
     RaggedRow,
     /// An empty cell.
     MissingValue,
@@ -49,60 +49,60 @@ pub enum FindingCode {
     DecimalComma,
     /// NaN, infinite, or too large for a 64-bit number.
     NonFinite,
-    /// Finite but beyond any measurement.
+    /// Finite, but larger than any plausible measurement.
     OutOfRange,
-    /// Time in milliseconds, microseconds or nanoseconds read as seconds.
+    /// Time appears to be in milliseconds, microseconds or nanoseconds instead of seconds.
     TimeUnit,
-    /// Time that does not increase.
+    /// Time does not strictly increase.
     NonIncreasingTime,
-    /// The same row again; the copy was left out.
+    /// A row repeats the previous one; the copy was dropped.
     DuplicateRow,
-    /// A step in time much longer than the stream's usual one.
+    /// A time step is much longer than the stream's median step.
     Gap,
-    /// First to last sample takes less than the lower limit.
+    /// The recording is shorter than the lower limit.
     TooShort,
-    /// First to last sample takes more than the upper limit.
+    /// The recording is longer than the upper limit.
     TooLong,
     /// Streams recorded together start at different times.
     ClockOffset,
-    /// Streams recorded together last differently long.
+    /// Streams recorded together differ in duration.
     DurationMismatch,
-    /// Two streams or demonstrations with the same samples.
+    /// Two streams or demonstrations contain the same samples.
     DuplicateContent,
 }
 
-/// One observation about a file.
+/// One observation about a file, with its place and remedy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Finding {
-    /// Whether it refuses the file.
+    /// `Error` if the finding rejects the file.
     pub severity: Severity,
-    /// What was found.
+    /// Stable kind of the finding.
     pub code: FindingCode,
-    /// The stream, where it concerns one.
+    /// Name of the stream; `None` if the finding concerns the whole file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
-    /// The line of the file from 1 (CSV, logs) or the sample from 1 (JSON).
+    /// Line of the file (CSV, logs) or sample (JSON), from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub row: Option<u64>,
-    /// The column's or feature's name, or `column N` from 1 where it has none.
+    /// Name of the column or feature; `column N` (from 1) if it has no name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
-    /// The recorder's time at that place, seconds.
+    /// Time at that place on the recorder's clock, seconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
-    /// What is the matter, with the numbers.
+    /// Description of the problem, with the numbers.
     pub message: String,
-    /// What to do about it.
+    /// Suggested remedy.
     pub remedy: String,
 }
 
 impl Finding {
-    /// A finding that refuses the file; its place is added by the `in_stream`, `at_row`, .. methods.
+    /// A finding that rejects the file. Its place is added with `in_stream`, `at_row`, `in_column` and `at_time`.
     pub fn error(code: FindingCode, message: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::new(Severity::Error, code, message.into(), remedy.into())
     }
 
-    /// A finding that is kept with the accepted file.
+    /// A finding that is stored with the accepted file.
     pub fn warning(code: FindingCode, message: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::new(Severity::Warning, code, message.into(), remedy.into())
     }
@@ -111,35 +111,35 @@ impl Finding {
         Self { severity, code, stream: None, row: None, column: None, time_s: None, message, remedy }
     }
 
-    /// In that stream.
+    /// Sets the stream.
     #[must_use]
     pub fn in_stream(mut self, stream: impl Into<String>) -> Self {
         self.stream = Some(stream.into());
         self
     }
 
-    /// At that row, from 1.
+    /// Sets the row, from 1.
     #[must_use]
     pub fn at_row(mut self, row: u64) -> Self {
         self.row = Some(row);
         self
     }
 
-    /// In that column.
+    /// Sets the column.
     #[must_use]
     pub fn in_column(mut self, column: impl Into<String>) -> Self {
         self.column = Some(column.into());
         self
     }
 
-    /// At that time of the recorder, seconds.
+    /// Sets the time on the recorder's clock, seconds.
     #[must_use]
     pub fn at_time(mut self, time_s: f64) -> Self {
         self.time_s = Some(time_s);
         self
     }
 
-    /// Whether it refuses the file.
+    /// Whether the finding rejects the file.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error

@@ -1,8 +1,8 @@
 //! Canonical JSON: `{name, streams: [{name, features: [{name, unit}], time_s: [..], values: ..}]}`.
 //!
-//! `values` is one flat row-major array or an array of rows; instead of `time_s` and `values` a stream may have
-//! `samples`: rows of time and values. `null` and the strings `"NaN"`, `"Infinity"` stand where other writers could
-//! not put a number: they are found as non-finite with their row.
+//! `values` is a flat row-major array or an array of rows. Instead of `time_s` and `values` a stream may have
+//! `samples`: rows of time followed by values. `null` and the strings `"NaN"` and `"Infinity"`, which other writers use
+//! for non-finite numbers, are reported as non-finite with their row.
 
 use super::table::{Findings, Place, Table, check_magnitude};
 use super::{Finding, FindingCode, ReadOptions};
@@ -32,7 +32,7 @@ struct StreamPart {
     samples: Option<Vec<Vec<Number>>>,
 }
 
-/// A number, or NaN for what stands in for one.
+/// A number; NaN for the placeholders of non-finite numbers.
 #[derive(Clone, Copy)]
 struct Number(f64);
 
@@ -71,7 +71,7 @@ fn table(part: StreamPart, options: &ReadOptions, findings: &mut Findings) -> Op
     }
     let m = features.len();
     if m == 0 {
-        let finding = Finding::error(FindingCode::TooSmall, "the stream has no feature", "name at least one feature");
+        let finding = Finding::error(FindingCode::TooSmall, "the stream has no feature", "add at least one feature");
         findings.push(finding.in_stream(name));
         return None;
     }
@@ -92,7 +92,7 @@ fn table(part: StreamPart, options: &ReadOptions, findings: &mut Findings) -> Op
             let rows = rows_of(values, m, &name, findings)?;
             if rows.len() != time_s.len() {
                 let message = format!("{} times for {} rows of values", time_s.len(), rows.len());
-                let remedy = "give one time for each row";
+                let remedy = "give one time per row";
                 findings.push(Finding::error(FindingCode::RaggedRow, message, remedy).in_stream(name));
                 return None;
             }
@@ -130,7 +130,7 @@ fn push_row(
             findings.push(place.finding(
                 FindingCode::NonFinite,
                 "not a finite number".to_owned(),
-                "remove the sample or record it again; nothing is filled in",
+                "remove the sample or record it again; values are never filled in",
             ));
         } else if column != "time_s" {
             check_magnitude(value, &options.limits, place, findings);
@@ -145,7 +145,7 @@ fn push_row(
     table.values.extend(values.iter().map(|number| number.0));
 }
 
-/// Rows of m values out of a flat array or an array of rows.
+/// Converts a flat array or an array of rows into rows of m values.
 fn rows_of(values: Vec<Cell>, m: usize, stream: &str, findings: &mut Findings) -> Option<Vec<Vec<Number>>> {
     let mut flat: Vec<Number> = Vec::new();
     let mut rows = Vec::new();
@@ -160,7 +160,7 @@ fn rows_of(values: Vec<Cell>, m: usize, stream: &str, findings: &mut Findings) -
         return (!findings.refused()).then_some(rows);
     }
     if !rows.is_empty() || !flat.len().is_multiple_of(m) {
-        let message = format!("{} numbers and {} rows do not make rows of {m} values", flat.len(), rows.len());
+        let message = format!("{} numbers and {} rows do not form rows of {m} values", flat.len(), rows.len());
         let remedy = "give `values` as an array of rows";
         findings.push(Finding::error(FindingCode::RaggedRow, message, remedy).in_stream(stream));
         return None;
@@ -169,7 +169,7 @@ fn rows_of(values: Vec<Cell>, m: usize, stream: &str, findings: &mut Findings) -
 }
 
 fn ragged(stream: &str, row: u64, found: usize, expected: usize) -> Finding {
-    let message = format!("{found} numbers where {expected} are expected");
+    let message = format!("{found} numbers instead of {expected}");
     Finding::error(FindingCode::RaggedRow, message, "complete or remove the sample").in_stream(stream).at_row(row)
 }
 

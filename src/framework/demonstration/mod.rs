@@ -1,10 +1,10 @@
 //! Demonstrations: time series of features, read from bytes, with findings about their quality.
 //!
-//! [`read`] takes one file, [`read_files`] the files of a bundle (each one stream). Both either give a
-//! [`Demonstration`] that is valid by construction together with warnings, or refuse with at least one error.
+//! [`read`] takes one file, [`read_files`] the files of a bundle (one stream each). Both return either a
+//! [`Demonstration`], valid by construction, with warnings, or findings with at least one error.
 //!
-//! Invariants: no input makes them panic; nothing is clamped, guessed or filled in silently; a file is refused when
-//! one row of it is wrong, and every finding says where and what to do.
+//! Invariants: no input causes a panic; nothing is clamped, guessed or filled in silently; one bad row rejects the
+//! whole file; every finding names its place and a remedy.
 
 mod compare;
 mod csv;

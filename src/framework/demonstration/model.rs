@@ -16,12 +16,12 @@ pub struct Stream {
     values: Vec<f64>,
 }
 
-/// Why values do not make a stream.
+/// Reasons why values do not form a stream.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StreamError {
-    /// No feature or fewer than two samples.
+    /// There is no feature, or there are fewer than two samples.
     #[error(
-        "stream {stream:?} has {samples} samples of {features} features: at least 2 samples of 1 feature are needed"
+        "stream {stream:?} has {samples} samples of {features} features: give at least 2 samples of 1 feature"
     )]
     TooSmall {
         /// Stream name.
@@ -52,19 +52,19 @@ pub enum StreamError {
         sample: usize,
         /// Column name.
         column: String,
-        /// The value.
+        /// The non-finite value.
         value: f64,
     },
-    /// Time does not increase.
-    #[error("stream {stream:?}, sample {sample}: time {time_s} s does not follow {previous_s} s")]
+    /// Time does not strictly increase.
+    #[error("stream {stream:?}, sample {sample}: time {time_s} s is not after {previous_s} s")]
     NonIncreasing {
         /// Stream name.
         stream: String,
         /// Sample index from 0.
         sample: usize,
-        /// Time of that sample.
+        /// Time of that sample, seconds.
         time_s: f64,
-        /// Time of the sample before.
+        /// Time of the previous sample, seconds.
         previous_s: f64,
     },
 }
@@ -164,10 +164,10 @@ impl Stream {
         self.time_s[self.time_s.len() - 1] - self.time_s[0]
     }
 
-    /// The stream with its first sample at 0 s.
+    /// Shifts time so that the first sample is at 0 s.
     ///
     /// # Errors
-    /// [`StreamError::NonIncreasing`] where two times become one by rounding.
+    /// [`StreamError::NonIncreasing`] if rounding makes two times equal.
     pub fn starting_at_zero(self) -> Result<Self, StreamError> {
         let start_s = self.time_s[0];
         let time_s = self.time_s.iter().map(|t| t - start_s).collect();
@@ -175,7 +175,7 @@ impl Stream {
     }
 }
 
-/// One recorded stream; `values` is row-major, samples x features.
+/// Serialized form of [`Stream`]; `values` is row-major, samples x features.
 #[derive(Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 struct RawStream {
@@ -213,7 +213,7 @@ impl From<Stream> for RawStream {
     }
 }
 
-/// One showing of an action: one or more streams recorded together.
+/// One performance of an action: one or more streams recorded together.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Demonstration {
@@ -224,12 +224,12 @@ pub struct Demonstration {
 }
 
 impl Demonstration {
-    /// The features of all streams, in order.
+    /// Iterates over the features of all streams, in order.
     pub fn features(&self) -> impl Iterator<Item = &Feature> {
         self.streams.iter().flat_map(Stream::features)
     }
 
-    /// First and last time of all streams, seconds; `None` without streams.
+    /// First and last time over all streams, seconds; `None` without streams.
     #[must_use]
     pub fn span_s(&self) -> Option<(f64, f64)> {
         let start = self.streams.iter().map(|s| s.time_s()[0]).min_by(f64::total_cmp)?;
@@ -237,7 +237,7 @@ impl Demonstration {
         Some((start, end))
     }
 
-    /// Time from the first to the last sample of all streams, seconds.
+    /// Time from the first to the last sample over all streams, seconds.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
         self.span_s().map_or(0.0, |(start, end)| end - start)

@@ -1,24 +1,25 @@
-//! How a file is to be read: everything is optional and found from the content where absent.
+//! Options for reading a file; all are optional and derived from the content by default.
 
 use crate::Feature;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
-/// The form of a file.
+/// Format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[clap(rename_all = "snake_case")]
 pub enum Format {
-    /// Comma, semicolon or tab separated with a header line.
+    /// Separated by comma, semicolon or tab, with a header line.
     Csv,
-    /// Space separated without header: id, time (s), values. YARP logs at full rate and the reduced files.
+    /// Separated by spaces, without a header: id, time (s), values. YARP logs at full rate and the authors' reduced
+    /// files.
     Yarp,
     /// Canonical JSON: `{name, streams: [{name, features: [{name, unit}], time_s: [..], values: [[..], ..]}]}`.
     Json,
 }
 
-/// What happens to the clocks of the streams of one demonstration.
+/// Treatment of the clocks of a demonstration's streams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[clap(rename_all = "snake_case")]
@@ -26,56 +27,56 @@ pub enum ClockPolicy {
     /// Times stay as they were recorded.
     #[default]
     AsRecorded,
-    /// Every stream starts at 0 s: for recorders whose clocks disagree.
+    /// Every stream is shifted to start at 0 s; for recorders whose clocks disagree.
     AlignByStart,
 }
 
-/// How to read a file or bundle.
+/// Options for reading a file or bundle.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReadOptions {
-    /// Name of the demonstration; JSON's own name wins where this is absent, then the stream's.
+    /// Name of the demonstration. If absent, the name in the JSON or else that of the stream is used.
     pub name: Option<String>,
-    /// Stream name of a single file without one of its own; `stream` when absent.
+    /// Stream name for a single file that has none of its own; `stream` if absent.
     pub stream: Option<String>,
-    /// The form of the file; found from its content when absent.
+    /// Format of the file; detected from its content if absent.
     pub format: Option<Format>,
-    /// Header of the time column; `time`, `time_s`, `t` or `timestamp` when absent.
+    /// Header of the time column; if absent, `time`, `time_s`, `t` and `timestamp` are recognized.
     pub time_column: Option<String>,
-    /// Units by feature name; they win over those of the header.
+    /// Units by feature name; they override those of the header.
     pub units: BTreeMap<String, String>,
-    /// Features of files without header, in column order after id and time; by known stream names, else `value_1`, ..
-    /// when absent.
+    /// Features of files without a header, in the order of the columns after id and time. If empty, those known for the
+    /// stream's name or else `value_1`, ...
     pub features: Vec<Feature>,
-    /// As `features`, for the streams of a bundle by stream name.
+    /// Like `features`, per stream name of a bundle.
     pub stream_features: BTreeMap<String, Vec<Feature>>,
-    /// What to do about clocks that disagree.
+    /// Treatment of clocks that disagree.
     pub clock_policy: ClockPolicy,
-    /// What is refused.
+    /// Upper and lower bounds; a file outside them is rejected.
     pub limits: Limits,
 }
 
-/// What is refused as too large, too long or absurd.
+/// Bounds beyond which a file is rejected as too large, too long or implausible.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Limits {
-    /// Bytes of all files of a demonstration together.
+    /// Bytes of all files of a demonstration in total.
     pub bytes: u64,
     /// Bytes of one line.
     pub line_bytes: usize,
-    /// Samples of all streams of a demonstration together.
+    /// Samples of all streams of a demonstration in total.
     pub samples: u64,
-    /// Features of all streams of a demonstration together.
+    /// Features of all streams of a demonstration in total.
     pub features: usize,
-    /// Streams of a demonstration.
+    /// Number of streams of a demonstration.
     pub streams: usize,
     /// Shortest time from first to last sample, seconds.
     pub min_duration_s: f64,
     /// Longest time from first to last sample, seconds.
     pub max_duration_s: f64,
-    /// Largest magnitude of a value, in its unit.
+    /// Largest magnitude of a value, in the feature's unit.
     pub max_magnitude: f64,
-    /// Findings after which reading stops.
+    /// Number of findings after which reading stops.
     pub findings: usize,
 }
 
@@ -95,10 +96,10 @@ impl Default for Limits {
     }
 }
 
-/// Features of the authors' streams by stream name, for files without header.
+/// Features of the authors' streams by stream name, for files without a header.
 ///
-/// A name that contains `painted-percentage`: painted (%); `wrist-force`: forces (N) and torques (N m) of the wrist sensor; `hand-pose`:
-/// position (m), unit axis and angle (deg). `None` for other names or another number of columns.
+/// A name that contains `painted-percentage` has painted (%); `wrist-force`: forces (N) and torques (N m) of the wrist
+/// sensor; `hand-pose`: position (m), unit axis and angle (deg). `None` for other names or another number of columns.
 #[must_use]
 pub fn known_features(stream: &str, columns: usize) -> Option<Vec<Feature>> {
     let table: &[(&str, &str)] = match stream {

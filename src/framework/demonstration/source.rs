@@ -1,4 +1,4 @@
-//! From files to a demonstration: detection, parsing, checks within and between the streams.
+//! From files to a demonstration: format detection, parsing, checks within and between streams.
 
 use super::table::{Findings, Table};
 use super::{ClockPolicy, Demonstration, Finding, FindingCode, Format, ReadOptions, Stream, StreamError};
@@ -8,16 +8,16 @@ use std::collections::{BTreeMap, BTreeSet};
 /// One file of a bundle.
 #[derive(Debug, Clone, Copy)]
 pub struct SourceFile<'a> {
-    /// Its name, which without folder and extension names the stream.
+    /// File name; without folder and extension it names the stream.
     pub name: &'a str,
-    /// Its content.
+    /// Raw content of the file.
     pub bytes: &'a [u8],
 }
 
-/// A demonstration with warnings, or findings of which at least one is an error.
+/// A demonstration with its warnings, or findings with at least one error.
 pub type ReadResult = Result<(Demonstration, Vec<Finding>), Vec<Finding>>;
 
-/// Reads one file; in JSON it may hold several streams.
+/// Reads one file; a JSON file may hold several streams.
 ///
 /// # Errors
 /// Findings, at least one of them an error.
@@ -26,9 +26,9 @@ pub fn read(bytes: &[u8], options: &ReadOptions) -> ReadResult {
     read_named(&[(name.to_owned(), bytes)], options)
 }
 
-/// Reads a bundle: every file is a stream of one demonstration, named as the file without folder and extension.
+/// Reads a bundle: every file is a stream of one demonstration, named after the file without folder and extension.
 ///
-/// A feature name that several streams use becomes `stream.feature` in each of them.
+/// A feature name used by several streams becomes `stream.feature` in each of them.
 ///
 /// # Errors
 /// Findings, at least one of them an error.
@@ -60,7 +60,7 @@ fn read_named(files: &[(String, &[u8])], options: &ReadOptions) -> ReadResult {
     Ok((Demonstration { name, streams: built }, findings.list))
 }
 
-/// Parses every file; refuses an empty bundle and totals beyond the limits.
+/// Parses every file; rejects an empty bundle and totals beyond the limits.
 fn parse(files: &[(String, &[u8])], options: &ReadOptions, findings: &mut Findings) -> (Vec<Table>, Option<String>) {
     let limits = &options.limits;
     let mut tables: Vec<Table> = Vec::new();
@@ -93,7 +93,7 @@ fn parse(files: &[(String, &[u8])], options: &ReadOptions, findings: &mut Findin
 fn check_totals(tables: &[Table], options: &ReadOptions, findings: &mut Findings) {
     let limits = &options.limits;
     if tables.is_empty() && !findings.refused() {
-        findings.push(Finding::error(FindingCode::Empty, "there is no stream", "give at least one file of samples"));
+        findings.push(Finding::error(FindingCode::Empty, "there are no streams", "give at least one file of samples"));
     }
     if tables.len() > limits.streams {
         findings.too_large(&format!("{} streams", tables.len()), &format!("{} streams", limits.streams), None);
@@ -113,8 +113,8 @@ fn check_totals(tables: &[Table], options: &ReadOptions, findings: &mut Findings
             findings.push(
                 Finding::error(
                     FindingCode::DuplicateStream,
-                    format!("two streams are called {:?}", table.stream),
-                    "give each file of a bundle another name",
+                    format!("two streams are named {:?}", table.stream),
+                    "give each file of the bundle a different name",
                 )
                 .in_stream(&table.stream),
             );
@@ -154,7 +154,8 @@ fn build(tables: Vec<Table>, options: &ReadOptions, findings: &mut Findings) -> 
     }
 }
 
-/// The parsers and `timing` report the same with the row; this keeps the type's rules and theirs from drifting apart.
+/// Unwraps a stream. The parsers and `timing` report the same defects with their row; this check keeps their rules from
+/// drifting away from the type's.
 fn accept(result: Result<Stream, StreamError>, findings: &mut Findings) -> Option<Stream> {
     let error = match result {
         Ok(stream) => return Some(stream),
@@ -170,7 +171,7 @@ fn accept(result: Result<Stream, StreamError>, findings: &mut Findings) -> Optio
     None
 }
 
-/// `a/wrist-force.csv` is `wrist-force`.
+/// Strips folder and extension: `a/wrist-force.csv` becomes `wrist-force`.
 fn stem(path: &str) -> &str {
     let file = path.rsplit(['/', '\\']).next().unwrap_or(path);
     match file.rsplit_once('.') {

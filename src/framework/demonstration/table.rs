@@ -1,9 +1,9 @@
-//! What every parser fills: a stream's rows as they stand in the file, and the list of findings.
+//! Output of every parser: a stream's rows as they appear in the file, and the list of findings.
 
 use super::{Finding, FindingCode, Limits};
 use crate::Feature;
 
-/// A stream under construction: `values` is row-major, `rows[i]` the place of sample i in its file.
+/// A stream under construction: `values` is row-major, `rows[i]` is the row of sample i in its file.
 #[derive(Debug)]
 pub(super) struct Table {
     pub stream: String,
@@ -19,7 +19,7 @@ impl Table {
     }
 }
 
-/// Findings so far; once as many as the limit are there, parsers stop.
+/// Findings so far; parsers stop once the limit is reached.
 #[derive(Debug)]
 pub(super) struct Findings {
     pub list: Vec<Finding>,
@@ -31,7 +31,7 @@ impl Findings {
         Self { list: Vec::new(), limit: limits.findings.max(1) }
     }
 
-    /// Adds a finding; beyond the limit only the first error still gets in, so that refusal is never lost.
+    /// Adds a finding. Beyond the limit only the first error is still added, so that a rejection is never lost.
     pub fn push(&mut self, finding: Finding) {
         if !self.full() || (finding.is_error() && !self.refused()) {
             self.list.push(finding);
@@ -49,7 +49,7 @@ impl Findings {
     pub fn too_large(&mut self, found: &str, limit: &str, place: Option<(&str, u64)>) {
         let mut finding = Finding::error(
             FindingCode::TooLarge,
-            format!("{found} are more than the limit of {limit}"),
+            format!("{found} exceed the limit of {limit}"),
             "split the recording or record at a lower rate",
         );
         if let Some((stream, row)) = place {
@@ -59,7 +59,7 @@ impl Findings {
     }
 }
 
-/// A cell's place, for findings.
+/// Location of a cell, for findings.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place<'a> {
     pub stream: &'a str,
@@ -73,19 +73,19 @@ impl Place<'_> {
     }
 }
 
-/// A decimal number out of a cell; anything else becomes a finding and NaN (the file is refused then).
+/// Parses a decimal number. Anything else becomes an error finding, which rejects the file, and NaN.
 pub(super) fn number(cell: &str, place: Place<'_>, findings: &mut Findings) -> f64 {
     let finding = match cell.parse::<f64>() {
         Ok(value) if value.is_finite() => return value,
         Ok(_) => place.finding(
             FindingCode::NonFinite,
             format!("{} is not a finite number", quote(cell)),
-            "remove the row or record it again; nothing is filled in",
+            "remove the row or record it again; values are never filled in",
         ),
         Err(_) if cell.is_empty() => place.finding(
             FindingCode::MissingValue,
             "the cell is empty".to_owned(),
-            "complete or remove the row; nothing is filled in",
+            "complete or remove the row; values are never filled in",
         ),
         Err(_) if is_decimal_comma(cell) => place.finding(
             FindingCode::DecimalComma,
@@ -102,12 +102,12 @@ pub(super) fn number(cell: &str, place: Place<'_>, findings: &mut Findings) -> f
     f64::NAN
 }
 
-/// A feature's value: a number within the sanity bound.
+/// Checks that a feature's value is within the plausibility bound.
 pub(super) fn check_magnitude(value: f64, limits: &Limits, place: Place<'_>, findings: &mut Findings) {
     if value.abs() > limits.max_magnitude {
         findings.push(place.finding(
             FindingCode::OutOfRange,
-            format!("{value:e} is beyond any measurement (limit {:e})", limits.max_magnitude),
+            format!("{value:e} is not a plausible measurement (limit {:e})", limits.max_magnitude),
             "correct the value or its unit",
         ));
     }
@@ -120,7 +120,7 @@ fn is_decimal_comma(cell: &str) -> bool {
     })
 }
 
-/// The text in quotes, shortened: it comes from a stranger's file.
+/// The text in quotes, shortened, because it comes from an untrusted file.
 pub(super) fn quote(text: &str) -> String {
     if text.chars().count() <= 40 {
         format!("{text:?}")

@@ -1,9 +1,9 @@
-//! Bytes to text, the form of a text, and which names are allowed.
+//! Decoding bytes to text, format detection, and the rules for names.
 
 use super::table::{Findings, Table, quote};
 use super::{Finding, FindingCode, Format};
 
-/// UTF-8 without NUL and other control characters; a byte order mark is left out.
+/// Decodes UTF-8 without NUL and other control characters; a byte order mark is dropped.
 pub(super) fn decode<'a>(bytes: &'a [u8], stream: &str, findings: &mut Findings) -> Option<&'a str> {
     let refuse = |findings: &mut Findings, at: usize, what: &str| {
         let row = bytes[..at].split(|b| *b == b'\n').count() as u64;
@@ -24,7 +24,7 @@ pub(super) fn decode<'a>(bytes: &'a [u8], stream: &str, findings: &mut Findings)
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.trim().is_empty() {
         findings.push(
-            Finding::error(FindingCode::Empty, "there is nothing in the file", "give a file of samples")
+            Finding::error(FindingCode::Empty, "the file is empty", "give a file of samples")
                 .in_stream(stream),
         );
         return None;
@@ -32,7 +32,7 @@ pub(super) fn decode<'a>(bytes: &'a [u8], stream: &str, findings: &mut Findings)
     Some(text)
 }
 
-/// The form of a text by its first line that is not empty.
+/// Detects the format from the first line that is not empty.
 pub(super) fn detect(text: &str) -> Format {
     if text.trim_start().starts_with(['{', '[']) {
         return Format::Json;
@@ -43,7 +43,7 @@ pub(super) fn detect(text: &str) -> Format {
     if spaced_numbers { Format::Yarp } else { Format::Csv }
 }
 
-/// A number, or what was meant as one (`1,5`, `nan`), but not a cell of a comma separated line.
+/// A number or a malformed one (`1,5`, `nan`), but not a cell of a comma-separated line.
 fn looks_numeric(cell: &str) -> bool {
     cell.parse::<f64>().is_ok()
         || (cell.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b',' | b'e' | b'E'))
@@ -51,7 +51,7 @@ fn looks_numeric(cell: &str) -> bool {
             && cell.matches(',').count() < 2)
 }
 
-/// Refuses a line beyond the limit; true if there is one.
+/// Reports a line beyond the limit; returns true if there is one.
 pub(super) fn has_long_line(text: &str, limit: usize, stream: &str, findings: &mut Findings) -> bool {
     let Some((index, line)) = text.split('\n').enumerate().find(|(_, line)| line.len() > limit) else { return false };
     findings.too_large(
@@ -62,7 +62,8 @@ pub(super) fn has_long_line(text: &str, limit: usize, stream: &str, findings: &m
     true
 }
 
-/// Stream and feature names are `[A-Za-z0-9 _.:-]{1,128}`, units at most 32 visible characters, names unique.
+/// Checks names: streams and features are `[A-Za-z0-9 _.:-]{1,128}`, units at most 32 visible characters, all names
+/// unique.
 pub(super) fn check_names(table: &Table, findings: &mut Findings) {
     let stream = &table.stream;
     let plain = |name: &str| {
@@ -72,7 +73,7 @@ pub(super) fn check_names(table: &Table, findings: &mut Findings) {
     let bad = |what: &str, name: &str, rule: &str| {
         Finding::error(FindingCode::BadName, format!("{what} {} is not {rule}", quote(name)), "choose another name")
     };
-    let rule = "1 to 128 of the letters A-Z a-z 0-9 space _ . : -";
+    let rule = "1 to 128 of the characters A-Z a-z 0-9 space _ . : -";
     if !plain(stream) {
         findings.push(bad("stream name", stream, rule));
     }
@@ -90,8 +91,8 @@ pub(super) fn check_names(table: &Table, findings: &mut Findings) {
             findings.push(
                 Finding::error(
                     FindingCode::DuplicateColumn,
-                    format!("two columns are called {}", quote(&feature.name)),
-                    "give each column another name; upper and lower case count as the same",
+                    format!("two columns are named {}", quote(&feature.name)),
+                    "give each column a different name; case is ignored",
                 )
                 .in_stream(stream)
                 .in_column(column),
@@ -100,7 +101,7 @@ pub(super) fn check_names(table: &Table, findings: &mut Findings) {
     }
 }
 
-/// Display names are 1 to 256 visible characters without direction overrides.
+/// Checks a display name: 1 to 256 visible characters without direction overrides.
 pub(super) fn check_display_name(name: &str, findings: &mut Findings) {
     if name.is_empty() || name.chars().count() > 256 || name.chars().any(is_invisible) {
         findings.push(Finding::error(

@@ -1,16 +1,16 @@
-//! Checks of one stream's clock: enough samples, unit, order, repeated rows, gaps, length.
+//! Checks of one stream's clock: number of samples, unit, order, repeated rows, gaps, duration.
 
 use super::table::{Findings, Table};
 use super::{Finding, FindingCode, Limits};
 
-/// Beyond this a time in seconds is milliseconds or less of the Unix epoch (1e11 s is the year 5138).
+/// Times above this cannot be seconds of the Unix epoch (1e11 s is the year 5138); they are milliseconds or finer.
 const LATEST_TIME_S: f64 = 1e11;
-/// A step in time this many times the usual (median) one is a gap.
+/// A time step this many times the median step counts as a gap.
 const GAP_FACTOR: f64 = 10.0;
-/// Gaps reported for each stream.
+/// Maximum number of gaps reported per stream.
 const GAPS_REPORTED: usize = 10;
 
-/// Reports what is wrong with the clock of `table`; removes rows that repeat the row before them in every value.
+/// Reports defects of the clock of `table`; removes rows that repeat the previous row in time and every value.
 pub(super) fn check(table: &mut Table, limits: &Limits, findings: &mut Findings) {
     if table.time_s.iter().any(|t| !t.is_finite()) {
         return; // found by the parser, with its row
@@ -18,8 +18,8 @@ pub(super) fn check(table: &mut Table, limits: &Limits, findings: &mut Findings)
     if let Some(sample) = table.time_s.iter().position(|t| t.abs() > LATEST_TIME_S) {
         let time_s = table.time_s[sample];
         let unit = if time_s.abs() > 1e17 { "nanoseconds" } else { "milliseconds or microseconds" };
-        let message = format!("{time_s:e} s is no time in seconds: probably {unit}");
-        let remedy = "divide the times, or head the column with its unit such as `timestamp [ns]`";
+        let message = format!("{time_s:e} s is too large for a time in seconds: probably {unit}");
+        let remedy = "convert the times, or name the unit in the header as in `timestamp [ns]`";
         findings.push(at(table, sample, Finding::error(FindingCode::TimeUnit, message, remedy)));
         return;
     }
@@ -27,13 +27,13 @@ pub(super) fn check(table: &mut Table, limits: &Limits, findings: &mut Findings)
     for sample in 1..table.time_s.len() {
         let (before, time_s) = (table.time_s[sample - 1], table.time_s[sample]);
         if time_s <= before && !findings.full() {
-            let message = format!("time {time_s} s does not follow {before} s");
-            let remedy = "sort the rows by time and remove rows of equal time";
+            let message = format!("time {time_s} s is not after {before} s");
+            let remedy = "sort the rows by time and remove rows with equal times";
             findings.push(at(table, sample, Finding::error(FindingCode::NonIncreasingTime, message, remedy)));
         }
     }
     if table.time_s.len() < 2 {
-        let message = format!("{} samples: at least 2 are needed", table.time_s.len());
+        let message = format!("{} samples, but at least 2 are needed", table.time_s.len());
         let finding = Finding::error(FindingCode::TooSmall, message, "record the whole demonstration");
         findings.push(finding.in_stream(&table.stream));
         return;
@@ -57,8 +57,8 @@ fn drop_repeated_rows(table: &mut Table, findings: &mut Findings) {
     };
     let repeated: Vec<usize> = (0..table.time_s.len()).filter(|&sample| repeats(table, sample)).collect();
     let Some(&first) = repeated.first() else { return };
-    let message = format!("{} rows repeat the row before them in time and every value", repeated.len());
-    let remedy = "the copies were left out; remove them from the file to silence this";
+    let message = format!("{} rows repeat the previous row in time and every value", repeated.len());
+    let remedy = "the copies were dropped; remove them from the file to silence this warning";
     findings.push(at(table, first, Finding::warning(FindingCode::DuplicateRow, message, remedy)));
     let mut copies = vec![false; table.time_s.len()];
     for sample in repeated {
@@ -86,8 +86,8 @@ fn check_length(table: &Table, limits: &Limits, findings: &mut Findings) {
     } else {
         return;
     };
-    let message = format!("first to last sample takes {duration_s} s, {word} than {bound_s} s");
-    let remedy = "check the unit of time, or cut the recording to the demonstration";
+    let message = format!("the recording lasts {duration_s} s, {word} than {bound_s} s");
+    let remedy = "check the unit of time, or trim the recording to the demonstration";
     findings.push(Finding::error(code, message, remedy).in_stream(&table.stream));
 }
 
@@ -98,8 +98,8 @@ fn report_gaps(table: &Table, findings: &mut Findings) {
     let gaps = (1..table.time_s.len()).filter(|&i| table.time_s[i] - table.time_s[i - 1] > GAP_FACTOR * median_s);
     for sample in gaps.take(GAPS_REPORTED) {
         let step_s = table.time_s[sample] - table.time_s[sample - 1];
-        let message = format!("{step_s:.6} s without a sample, where the usual step is {median_s:.6} s");
-        let remedy = "record again, or mind that goals in the gap are interpolated";
+        let message = format!("{step_s:.6} s without a sample; the usual step is {median_s:.6} s");
+        let remedy = "record it again, or accept that goals in the gap are interpolated";
         findings.push(at(table, sample, Finding::warning(FindingCode::Gap, message, remedy)));
     }
 }

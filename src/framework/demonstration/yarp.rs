@@ -1,5 +1,5 @@
-//! The authors' YARP logs at full rate and their reduced files: one sample a line, separated by spaces: id, time in
-//! seconds (of the Unix epoch), values. No header.
+//! The authors' YARP logs at full rate and their reduced files: one sample per line, separated by spaces: id, time in
+//! seconds (Unix epoch), values. No header.
 
 use super::table::{Findings, Place, Table, check_magnitude, number};
 use super::{Finding, FindingCode, ReadOptions, known_features, text};
@@ -26,8 +26,8 @@ pub(super) fn parse(content: &str, stream: &str, options: &ReadOptions, findings
             findings.push(
                 Finding::error(
                     FindingCode::RaggedRow,
-                    format!("{found} columns where the first row has {columns}"),
-                    "complete or remove the row; a log cut off while recording ends in half a row",
+                    format!("{found} columns, but the first row has {columns}"),
+                    "complete or remove the row; a log cut off during recording ends in half a row",
                 )
                 .in_stream(stream)
                 .at_row(row),
@@ -52,14 +52,14 @@ pub(super) fn parse(content: &str, stream: &str, options: &ReadOptions, findings
     Some(table)
 }
 
-/// Features of the columns after id and time: as given, as known for that stream, or `value_1`, ...
+/// Features of the columns after id and time: those given, else those known for the stream, else `value_1`, ...
 fn features(columns: usize, stream: &str, options: &ReadOptions, findings: &mut Findings) -> Option<Vec<Feature>> {
     let Some(values) = columns.checked_sub(2).filter(|values| *values > 0) else {
         findings.push(
             Finding::error(
                 FindingCode::TooSmall,
-                format!("{columns} columns where id, time and at least one value are needed"),
-                "give rows of: id time value ..",
+                format!("{columns} columns, but id, time and at least one value are needed"),
+                "write rows as: id time value ..",
             )
             .in_stream(stream)
             .at_row(1),
@@ -71,8 +71,8 @@ fn features(columns: usize, stream: &str, options: &ReadOptions, findings: &mut 
         findings.push(
             Finding::error(
                 FindingCode::BadOption,
-                format!("{} features are named for {values} columns of values", given.len()),
-                "name one feature for each column after id and time",
+                format!("{} features are named, but there are {values} columns of values", given.len()),
+                "name one feature per column after id and time",
             )
             .in_stream(stream),
         );

@@ -1,7 +1,7 @@
 //! Time normalisation and binning (paper eq. 1-2).
 //!
-//! Symbols: N demonstrations of durations d_k; T_min; n = floor(mean(d) / T_min) goals; a sample at time t of
-//! demonstration k has the normalised time x = (t - start_k) / d_k in [0, 1] and lies in bin floor(x n); x = 1 lies in
+//! Symbols: N demonstrations of durations d_k; T_min; n = floor(mean(d) / T_min) goals. A sample at time t of
+//! demonstration k has the normalised time x = (t - start_k) / d_k in [0, 1] and lies in bin floor(x n). x = 1 lies in
 //! the last bin (`per_demonstration`) or in none (`per_sample`, as in the authors' script). Start and duration are
 //! those of the demonstration, not of the single stream.
 
@@ -12,7 +12,7 @@ use crate::demonstration::{Demonstration, Stream};
 /// Largest number of goals.
 const MAX_GOALS: usize = 10_000;
 
-/// The goals of an action from its demonstrations.
+/// Generalizes demonstrations into the goals of an action.
 ///
 /// # Errors
 /// [`GeneralizeError`] names the demonstration, stream or feature that does not fit.
@@ -78,7 +78,7 @@ fn number_of_goals(durations_s: &[f64], spec: &GeneralizeSpec) -> Result<usize, 
     Ok(index(goals))
 }
 
-/// The features to generalize: those selected, else all of the first demonstration.
+/// The features to generalize: the selected ones, or else all of the first demonstration.
 fn selection(first: &Demonstration, spec: &GeneralizeSpec) -> Result<Vec<Feature>, GeneralizeError> {
     let Some(names) = &spec.features else { return Ok(first.features().cloned().collect()) };
     let repeated = names.iter().enumerate().any(|(i, name)| names[..i].contains(name));
@@ -97,7 +97,7 @@ fn find<'a>(demonstration: &'a Demonstration, name: &str) -> Result<(&'a Stream,
     })
 }
 
-/// One feature of one demonstration: values over normalised time.
+/// One feature of one demonstration: its values over normalised time.
 struct Column<'a> {
     demonstration: &'a Demonstration,
     stream: &'a Stream,
@@ -111,7 +111,7 @@ impl Column<'_> {
         self.stream.row(sample)[self.index]
     }
 
-    /// Linear in time between samples; `None` outside the stream.
+    /// Interpolates linearly in time; `None` outside the stream.
     fn at(&self, time_s: f64) -> Option<f64> {
         let times = self.stream.time_s();
         let after = times.partition_point(|t| *t < time_s);
@@ -126,7 +126,7 @@ impl Column<'_> {
     }
 }
 
-/// The columns of `features` in a demonstration; with `all`, it may have no others.
+/// The columns of `features` in a demonstration; if `all`, the demonstration must not have any others.
 fn columns<'a>(
     demonstration: &'a Demonstration,
     first: &Demonstration,
@@ -158,7 +158,7 @@ fn columns<'a>(
     features.iter().map(column).collect()
 }
 
-/// Sums and counts of one column in n bins.
+/// Sums and counts per bin for one column.
 struct Bins {
     sums: Vec<f64>,
     counts: Vec<u64>,
@@ -202,7 +202,7 @@ impl Bins {
     }
 }
 
-/// Floor of a number that is known to lie in 0..=usize::MAX.
+/// Floor of a number known to lie in 0..=usize::MAX.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "callers bound it; `as` saturates")]
 fn index(value: f64) -> usize {
     value as usize
@@ -212,7 +212,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// With N - 1; 0 for fewer than two values.
+/// Sample standard deviation (N - 1); 0 for fewer than two values.
 fn standard_deviation(values: &[f64]) -> f64 {
     if values.len() < 2 {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Known values by hand and properties; the authors' own output is reproduced in `tests/recordings.rs`.
+//! Values known by hand, and properties; `tests/recordings.rs` reproduces the authors' own output.
 
 use super::*;
 use proptest::prelude::*;
@@ -38,7 +38,7 @@ fn per_sample_weights_samples_alike_and_leaves_out_each_last_one() {
 
 #[test]
 fn durations_are_rounded_before_the_mean_per_sample_only() {
-    // 3.2 s and 4.1 s: exact mean 3.65 s; in whole seconds (4 + 5) / 2 = 4.5, down to 4.
+    // 3.2 s and 4.1 s: exact mean 3.65 s; rounded up to whole seconds (4 + 5) / 2 = 4.5, then down to 4.
     let demonstrations =
         [demonstration("a", &[0.0, 1.0, 3.2], &[1.0; 3]), demonstration("b", &[0.0, 1.0, 4.1], &[1.0; 3])];
     let spec = GeneralizeSpec::new(2.0);
@@ -71,7 +71,7 @@ fn features_have_to_agree_unless_selected() {
     let extra = Stream::new("force", vec![Feature::new("Fx", "N")], vec![0.0, 4.0], vec![0.0, 1.0]).unwrap();
     demonstrations[1].streams.push(extra);
     let error = generalize(&demonstrations, &GeneralizeSpec::new(1.0)).unwrap_err();
-    assert!(error.to_string().contains("\"short\" has a feature \"Fx\" that \"long\" has not"), "{error}");
+    assert!(error.to_string().contains("\"short\" has a feature \"Fx\" that \"long\" lacks"), "{error}");
     demonstrations.reverse();
     let error = generalize(&demonstrations, &GeneralizeSpec::new(1.0)).unwrap_err();
     assert!(matches!(error, GeneralizeError::MissingFeature { .. }), "{error}");

@@ -14,10 +14,10 @@ pub struct Goals {
     values: Vec<f64>,
 }
 
-/// Why rows do not make a matrix of goals.
+/// Reasons why rows do not form a matrix of goals.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GoalsError {
-    /// No goal or no feature.
+    /// There is no goal or no feature.
     #[error("an action needs at least 1 goal of 1 feature, not {goals} goals of {features} features")]
     Empty {
         /// Number of goals found.
@@ -25,30 +25,30 @@ pub enum GoalsError {
         /// Number of features found.
         features: usize,
     },
-    /// A row of another length.
+    /// A row has the wrong length.
     #[error("goal {goal} has {found} values for {expected} features")]
     Ragged {
         /// Goal index from 0.
         goal: usize,
-        /// Values found.
+        /// Number of values in the row.
         found: usize,
-        /// Values expected.
+        /// Number of features.
         expected: usize,
     },
-    /// NaN or infinity.
+    /// A value is NaN or infinite.
     #[error("goal {goal}, feature {feature:?} is {value}, not a finite number")]
     NonFinite {
         /// Goal index from 0.
         goal: usize,
         /// Feature name.
         feature: String,
-        /// The value.
+        /// The non-finite value.
         value: f64,
     },
 }
 
 impl Goals {
-    /// Goals from rows, each of `features.len()` values in the features' units.
+    /// Builds goals from rows, each with `features.len()` values in the features' units.
     ///
     /// # Errors
     /// [`GoalsError`] names the first goal that breaks a rule.
@@ -98,14 +98,14 @@ impl Goals {
         &self.values
     }
 
-    /// The rows, one a goal.
+    /// Iterates over the rows, one per goal.
     #[must_use]
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.values.chunks_exact(self.features.len())
     }
 }
 
-/// n goals, each of one value for each feature.
+/// Serialized form of [`Goals`]: n rows with one value per feature.
 #[derive(Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 struct RawGoals {

@@ -1,8 +1,8 @@
 //! Generalization: from demonstrations to intermediate goals (paper eq. 1-3).
 //!
-//! [`generalize`] rescales the time of each demonstration to [0, 1], cuts it into n equal bins and takes means;
+//! [`generalize`] rescales the time of each demonstration to [0, 1], divides it into n equal bins and averages each;
 //! [`interpolate`] draws a curve through the goals with radial basis functions. Both are pure functions of their
-//! arguments: sums run in the order of demonstrations and samples, so the same input gives the same bits.
+//! arguments. Sums run in the order of demonstrations and samples, so the same input gives the same bits.
 
 mod binning;
 mod goals;

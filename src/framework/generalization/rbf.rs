@@ -9,14 +9,14 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Largest number of goals to interpolate: the system is dense, n x n.
+/// Largest number of goals to interpolate: the system is a dense n x n one.
 const MAX_NODES: usize = 2000;
 /// Largest number of points to interpolate.
 const MAX_POINTS: usize = 100_000;
-/// The curve has to go through the goals to this share of their largest magnitude.
+/// Largest error of the curve at a goal, relative to the largest magnitude among the goals.
 const TOLERANCE: f64 = 1e-6;
 
-/// phi(r); epsilon is a length in normalised time.
+/// Radial function phi(r); epsilon is a length in normalised time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 #[clap(rename_all = "snake_case")]
@@ -36,43 +36,43 @@ pub enum RbfKernel {
     ThinPlate,
 }
 
-/// How to interpolate.
+/// Options for interpolation.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RbfSpec {
-    /// The radial function.
+    /// Radial function.
     pub kernel: RbfKernel,
-    /// Its length in normalised time (> 0); 1 / n when absent.
+    /// Length epsilon in normalised time (> 0); 1 / n if absent.
     pub epsilon: Option<f64>,
 }
 
-/// Why goals cannot be interpolated.
+/// Reasons why goals cannot be interpolated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RbfError {
     /// Too many or too few points or nodes.
-    #[error("{points} points through {nodes} goals: give 1 to {MAX_POINTS} points, through at most {MAX_NODES} goals")]
+    #[error("{points} points through {nodes} goals: give 1 to {MAX_POINTS} points and at most {MAX_NODES} goals")]
     Size {
-        /// Points asked for.
+        /// Number of points requested.
         points: usize,
-        /// Goals there are.
+        /// Number of goals.
         nodes: usize,
     },
-    /// epsilon is no positive length.
+    /// Epsilon is not a positive length.
     #[error("epsilon is {epsilon}: give a positive length in normalised time, about 1 / {nodes}")]
     Epsilon {
-        /// As asked for.
+        /// Requested epsilon.
         epsilon: f64,
-        /// Goals there are.
+        /// Number of goals.
         nodes: usize,
     },
     /// The system has no accurate solution.
     #[error("the curve misses a goal by {miss} (epsilon {epsilon}, {nodes} goals): give a smaller epsilon")]
     IllConditioned {
-        /// Largest distance from a goal, features' unit; infinite where the system is singular.
+        /// Largest distance of the curve from a goal, features' unit; infinite if the system is singular.
         miss: f64,
-        /// epsilon in use.
+        /// Epsilon in use.
         epsilon: f64,
-        /// Goals there are.
+        /// Number of goals.
         nodes: usize,
     },
     /// The curve overflows.
@@ -94,7 +94,7 @@ impl RbfKernel {
         }
     }
 
-    /// Terms of the polynomial beside the sum.
+    /// Number of polynomial terms added to the sum.
     fn polynomial_terms(self) -> usize {
         match self {
             Self::Cubic | Self::ThinPlate => 2,
@@ -103,7 +103,7 @@ impl RbfKernel {
     }
 }
 
-/// `points` values of each feature, evenly spaced in normalised time from the first to the last goal.
+/// Interpolates `points` values of each feature, evenly spaced in normalised time from the first to the last goal.
 ///
 /// A single goal gives a constant curve.
 ///
@@ -142,12 +142,12 @@ pub fn interpolate(goals: &Goals, points: usize, spec: &RbfSpec) -> Result<Goals
     Ok(Goals::new(goals.features().to_vec(), &rows)?)
 }
 
-/// Position of node i of n in [0, 1]; the start where there is only one.
+/// Position of node i of n in [0, 1]; 0 if there is only one.
 fn node(i: usize, n: usize) -> f64 {
     if n == 1 { 0.0 } else { i as f64 / (n - 1) as f64 }
 }
 
-/// phi(|x - x_i|) for all nodes, then 1 and x where the kernel needs them.
+/// phi(|x - x_i|) for all nodes, followed by 1 and x if the kernel needs them.
 fn basis(x: f64, nodes: usize, terms: usize, kernel: RbfKernel, epsilon: f64) -> DVector<f64> {
     DVector::from_fn(nodes + terms, |i, _| match i.checked_sub(nodes) {
         None => kernel.phi((x - node(i, nodes)).abs(), epsilon),

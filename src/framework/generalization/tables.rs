@@ -1,31 +1,31 @@
-//! Goals as CSV: one row a goal, one column a feature, header `name [unit]` first.
+//! Goals as CSV: a header of `name [unit]`, then one row per goal with one column per feature.
 
 use super::{Goals, GoalsError};
 use crate::Feature;
 use std::fmt::Write as _;
 
-/// Why a text is no table of goals.
+/// Reasons why a text is not a table of goals.
 #[derive(Debug, thiserror::Error)]
 pub enum GoalsFileError {
-    /// Not CSV.
-    #[error("not a table of goals")]
+    /// The text is not CSV.
+    #[error("the text is not a table of goals")]
     Csv(#[from] csv::Error),
-    /// A cell is no number.
+    /// A cell is not a number.
     #[error("row {row}, column {column:?}: {cell:?} is not a number")]
     Number {
-        /// Line from 1.
+        /// Line of the file, from 1.
         row: u64,
         /// Column header.
         column: String,
-        /// The cell.
+        /// Content of the cell.
         cell: String,
     },
-    /// Not a matrix.
-    #[error("the table makes no goals")]
+    /// The rows do not form a matrix of goals.
+    #[error("the table does not form goals")]
     Goals(#[from] GoalsError),
 }
 
-/// Header and rows; numbers with the shortest digits that give the same bits back.
+/// Writes header and rows; numbers have the shortest digits that round-trip.
 #[must_use]
 pub fn goals_to_csv(goals: &Goals) -> String {
     let mut text = goals.features().iter().map(Feature::header).collect::<Vec<_>>().join(",");
@@ -40,7 +40,7 @@ pub fn goals_to_csv(goals: &Goals) -> String {
     text
 }
 
-/// The reverse of [`goals_to_csv`].
+/// Parses the output of [`goals_to_csv`].
 ///
 /// # Errors
 /// [`GoalsFileError`] with row and column.

@@ -1,4 +1,4 @@
-//! The discrepancy of each metric, as one number or split by feature with its path.
+//! The discrepancy under each metric, as one number or split by feature with its warping path.
 
 use super::Metric;
 use super::dtw::{self, Border};
@@ -11,7 +11,7 @@ use utoipa::ToSchema;
 /// `observed` and `goals` are row-major with `features` columns; O(J) memory.
 ///
 /// # Panics
-/// When either is empty or not a whole number of rows.
+/// If either is empty or not a whole number of rows.
 #[must_use]
 pub fn discrepancy(metric: Metric, observed: &[f64], goals: &[f64], features: usize) -> f64 {
     match metric {
@@ -28,22 +28,22 @@ pub fn discrepancy(metric: Metric, observed: &[f64], goals: &[f64], features: us
     }
 }
 
-/// One feature's part of a discrepancy.
+/// One feature's share of a discrepancy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct FeatureDiscrepancy {
-    /// The feature.
+    /// Name and unit.
     pub feature: Feature,
-    /// Its part; the parts of all features add up to the discrepancy.
+    /// Contribution in the feature's unit; the contributions of all features add up to the discrepancy.
     pub discrepancy: f64,
-    /// Its own warping path for `sum_of_features`; empty for metrics with one path for all features.
+    /// Warping path of this feature for `sum_of_features`; empty for metrics with one joint path.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<[u32; 2]>,
 }
 
-/// A discrepancy with all that is known about it.
+/// A discrepancy with its split and paths.
 pub(super) struct Detailed {
     pub discrepancy: f64,
-    /// Mean distance of rows and goals matched with standard borders, see [`mean_distance`]; summed over features for
+    /// Mean distance of matched rows and goals under standard borders, see [`mean_distance`]; summed over features for
     /// `sum_of_features`.
     pub mean_distance: f64,
     /// Joint path; empty for `sum_of_features`.
@@ -51,10 +51,11 @@ pub(super) struct Detailed {
     pub features: Vec<FeatureDiscrepancy>,
 }
 
-/// As [`discrepancy`] with the split and path; O(I x J) memory.
+/// Like [`discrepancy`], with the split and the path; O(I x J) memory.
 ///
-/// Joint metrics are split along their path: a matched pair at distance d, of which feature k has delta_k, adds
-/// `delta_k^2 / d` to feature k. For `aquila` only the pairs that make the value count, those from the last border cell.
+/// Joint metrics are split along their path: a matched pair at distance d, to which feature k contributes delta_k, adds
+/// `delta_k^2 / d` to feature k. For `aquila` only the pairs that make up the value count, those after the last border
+/// cell.
 pub(super) fn detailed(metric: Metric, observed: &[f64], goals: &[f64], features: &[Feature]) -> Detailed {
     let m = features.len();
     if metric == Metric::SumOfFeatures {
@@ -118,8 +119,8 @@ fn sum_of_features(observed: &[f64], goals: &[f64], features: &[Feature]) -> Det
     }
 }
 
-/// The larger of two means of the distances along a path: each row of the observation counting alike, and each goal
-/// counting alike. The plain mean over the path would let a long observation hide that most goals were never shown.
+/// The larger of two mean distances along a path: one weights every observed row equally, the other every goal. The
+/// plain mean over the path would let a long observation hide that most goals were never shown.
 fn mean_distance(observed: &[f64], goals: &[f64], m: usize, path: &[(usize, usize)]) -> f64 {
     let mean_over = |index: fn(&(usize, usize)) -> usize| {
         let groups: Vec<f64> = path

@@ -1,29 +1,30 @@
-//! Dynamic time warping: the row kernel, the whole matrix with its optimal path, and the distance in O(n) memory.
+//! Dynamic time warping: the row kernel, the full matrix with its optimal path, and the distance in O(J) memory.
 //!
 //! Symbols: observation O of I rows, goals X of J rows, both over the same m features; local distance
 //! `d[i][j] = |O_i - X_j|` (Euclidean); accumulated matrix
 //! `D[i][j] = d[i][j] + min(D[i-1][j-1], D[i-1][j], D[i][j-1])`; the distance is `D[I-1][J-1]`, in the features' unit.
 //! Row i of D depends on rows 0..i of O only: a caller that appends to O keeps the last row and calls [`extend_row`].
 //!
-//! Invariants: the three ways (matrix, distance only, row by row) give the same bits, because all run [`extend_row`].
+//! Invariants: matrix, distance only, and row by row give the same bits, because all three run [`extend_row`].
+//!
 //! Source: H. Sakoe, S. Chiba, "Dynamic programming algorithm optimization for spoken word recognition", IEEE Trans.
-//! ASSP 26 (1978), DOI 10.1109/TASSP.1978.1163055; `Border::Local` as in the Aquila library used for the paper.
+//! ASSP 26 (1978), DOI 10.1109/TASSP.1978.1163055; `Border::Local` follows the Aquila library used for the paper.
 
-/// What the first row and the first column of the accumulated matrix hold.
+/// Content of the first row and the first column of the accumulated matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Border {
     /// Standard DTW: the running sum of local distances.
     Accumulated,
-    /// Aquila's: the local distance alone.
+    /// Aquila's variant: the local distance alone.
     Local,
 }
 
 /// Local distances of one observation to each goal: `out[j] = sqrt(sum_k (observation[k] - goals[j][k])^2)`.
 ///
-/// `observation` holds m values, `goals` is row-major and holds at least `out.len()` rows of m values.
+/// `observation` holds m values; `goals` is row-major with at least `out.len()` rows of m values.
 ///
 /// # Panics
-/// When `observation` is empty or `goals` holds fewer than `out.len()` rows.
+/// If `observation` is empty or `goals` has fewer than `out.len()` rows.
 pub fn local_distances(observation: &[f64], goals: &[f64], out: &mut [f64]) {
     let m = observation.len();
     assert!(m > 0 && goals.len() >= out.len() * m, "{} goal values for {} goals of {m}", goals.len(), out.len());
@@ -33,14 +34,14 @@ pub fn local_distances(observation: &[f64], goals: &[f64], out: &mut [f64]) {
     }
 }
 
-/// One row of the accumulated matrix from the row before it; allocates nothing.
+/// Computes one row of the accumulated matrix from the previous one; does not allocate.
 ///
-/// `previous` is row i-1, or empty for the first row; `local` holds `d[i][0..J]`; `out` receives `D[i][0..J]`. With
-/// `previous` longer than `local` only its first `local.len()` columns are read, so a caller may keep full rows and ask
-/// for the first j columns of the next.
+/// `previous` is row i-1, or empty for the first row; `local` holds `d[i][0..J]`; `out` receives `D[i][0..J]`. If
+/// `previous` is longer than `local`, only its first `local.len()` columns are read, so a caller may keep full rows and
+/// ask for the first j columns of the next.
 ///
 /// # Panics
-/// When `local` is empty, `out.len() != local.len()`, or `previous` is neither empty nor at least as long as `local`.
+/// If `local` is empty, `out.len() != local.len()`, or `previous` is neither empty nor at least as long as `local`.
 pub fn extend_row(previous: &[f64], local: &[f64], border: Border, out: &mut [f64]) {
     let columns = local.len();
     assert!(columns > 0 && out.len() == columns, "{} output cells for {columns} local distances", out.len());
@@ -75,12 +76,12 @@ fn first_row(local: &[f64], border: Border, out: &mut [f64]) {
     }
 }
 
-/// The distance `D[I-1][J-1]` in O(J) memory.
+/// Distance `D[I-1][J-1]` in O(J) memory.
 ///
 /// `observed` and `goals` are row-major with `features` columns.
 ///
 /// # Panics
-/// When either is empty or not a whole number of rows.
+/// If either is empty or not a whole number of rows.
 #[must_use]
 pub fn distance(observed: &[f64], goals: &[f64], features: usize, border: Border) -> f64 {
     let columns = check_shape(observed, goals, features);
@@ -98,23 +99,23 @@ pub fn distance(observed: &[f64], goals: &[f64], features: usize, border: Border
     previous[columns - 1]
 }
 
-/// The distance with its optimal path.
+/// A distance with its optimal path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alignment {
     /// `D[I-1][J-1]`, features' unit.
     pub distance: f64,
-    /// Pairs (row of the observation, goal) from the first to the last, each step forward by one in either or both.
+    /// Pairs (observed row, goal) from first to last; each step advances one of the two, or both, by one.
     pub path: Vec<(usize, usize)>,
 }
 
-/// The whole matrix and its optimal path; O(I x J) memory.
+/// Full matrix and optimal path; O(I x J) memory.
 ///
 /// Ties are broken towards the diagonal, then towards the observation's previous row. With [`Border::Local`] the
-/// accumulated value stops at a border cell, but the path is still led along the border to (0, 0), so that every row
-/// and every goal is matched.
+/// accumulated value starts at a border cell, but the path still continues along the border to (0, 0), so that every
+/// row and every goal is matched.
 ///
 /// # Panics
-/// When either is empty or not a whole number of rows.
+/// If either is empty or not a whole number of rows.
 #[must_use]
 pub fn align(observed: &[f64], goals: &[f64], features: usize, border: Border) -> Alignment {
     let columns = check_shape(observed, goals, features);
@@ -198,7 +199,7 @@ mod tests {
         assert_eq!(short.map(f64::to_bits), [1.5_f64, 2.5].map(f64::to_bits));
     }
 
-    /// The definition, written without the kernel: the cheapest of all monotone paths.
+    /// Reference implementation without the kernel: the cheapest of all monotone paths.
     fn cheapest_path(observed: &[f64], goals: &[f64], i: usize, j: usize) -> f64 {
         let here = (observed[i] - goals[j]).abs();
         let before = match (i, j) {

@@ -1,4 +1,4 @@
-//! The named metrics of discrepancy; always stored beside a value, never implicit.
+//! The named metrics of discrepancy. A value is always stored with its metric; there is no implicit one.
 
 use super::dtw::Border;
 use serde::{Deserialize, Serialize};
@@ -15,13 +15,13 @@ pub enum Metric {
     /// Euclidean local distance over all features jointly, one path, standard borders.
     #[default]
     Multivariate,
-    /// As `multivariate`, but the first row and column of the accumulated matrix hold the local distance only: what
-    /// the paper's published numbers used.
+    /// Like `multivariate`, but the first row and column of the accumulated matrix hold the local distance only; the
+    /// paper's published numbers use it.
     Aquila,
 }
 
 impl Metric {
-    /// The borders of its accumulated matrices.
+    /// Border rule of the accumulated matrices.
     #[must_use]
     pub fn border(self) -> Border {
         match self {

@@ -1,9 +1,10 @@
 //! Recognition: the discrepancy between an observed trajectory and an action's goals by dynamic time warping.
 //!
-//! [`discrepancy()`] is the one number execution searches with; [`recognize`] ranks candidate actions, splits each
-//! discrepancy by feature, gives the warping path, and says *unknown* when even the best is too far (open set).
+//! [`discrepancy()`] is the number that execution minimises. [`recognize`] ranks candidate actions, splits each
+//! discrepancy by feature, returns the warping path, and answers *unknown* if even the best candidate is too far away
+//! (open set).
 //!
-//! Invariants: features are matched by name and unit, never by position; a value never goes without its metric.
+//! Invariants: features are matched by name and unit, never by position; a value is never stored without its metric.
 
 mod discrepancy;
 pub mod dtw;

@@ -1,16 +1,16 @@
-//! A demonstration as one matrix of observations: what recognition compares with goals.
+//! A demonstration as one matrix of observations, for comparison with goals.
 
 use crate::Feature;
 use crate::demonstration::{Demonstration, Stream};
 use crate::generalization::{Goals, GoalsError};
 
-/// Why a demonstration makes no matrix of observations.
+/// Reasons why a demonstration does not form a matrix of observations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ObservedError {
-    /// No stream at all.
-    #[error("demonstration {demonstration:?} has no stream")]
+    /// The demonstration has no streams.
+    #[error("demonstration {demonstration:?} has no streams")]
     Empty {
-        /// Its name.
+        /// Name of the demonstration.
         demonstration: String,
     },
     /// The streams have no time in common.
@@ -19,11 +19,11 @@ pub enum ObservedError {
          end {end_s} s): align them by start"
     )]
     NoOverlap {
-        /// Its name.
+        /// Name of the demonstration.
         demonstration: String,
-        /// Latest start of a stream.
+        /// Latest start among the streams, seconds.
         start_s: f64,
-        /// Earliest end of a stream.
+        /// Earliest end among the streams, seconds.
         end_s: f64,
     },
     /// Interpolation overflowed.
@@ -31,13 +31,13 @@ pub enum ObservedError {
     Values(#[from] GoalsError),
 }
 
-/// The samples of all streams as rows over all features.
+/// Combines the samples of all streams into rows over all features.
 ///
-/// A single stream gives its own rows. Several are read at the sample times of the first one within the time all of
-/// them cover; the others are linear in time between samples.
+/// A single stream gives its own rows. With several, rows are taken at the sample times of the first stream within the
+/// time that all of them cover; the others are interpolated linearly.
 ///
 /// # Errors
-/// [`ObservedError`] where the streams have no time in common.
+/// [`ObservedError`] if the streams have no time in common.
 pub fn observed_rows(demonstration: &Demonstration) -> Result<Goals, ObservedError> {
     let empty = || ObservedError::Empty { demonstration: demonstration.name.clone() };
     let (first, others) = demonstration.streams.split_first().ok_or_else(empty)?;
@@ -61,7 +61,7 @@ pub fn observed_rows(demonstration: &Demonstration) -> Result<Goals, ObservedErr
     Ok(Goals::new(features, &rows)?)
 }
 
-/// Appends the stream's values at a time it covers.
+/// Appends the stream's values at `time_s`, which the stream must cover.
 fn push_at(stream: &Stream, time_s: f64, row: &mut Vec<f64>) {
     let times = stream.time_s();
     let after = times.partition_point(|t| *t < time_s).clamp(1, times.len() - 1);

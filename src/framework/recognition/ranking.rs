@@ -1,14 +1,15 @@
-//! Ranking of an observation against candidate actions, with an open set: none of them is an answer too.
+//! Ranking of an observation against candidate actions with an open set: "none of them" is a possible answer.
 //!
-//! The open set needs a number without unit. The *relative discrepancy* is d / R: d the mean distance of rows and goals
-//! matched by the warping path, the larger of the mean over rows and the mean over goals (so that a long observation
-//! cannot hide goals that were never shown); R the size of the action, the diagonal of the box around its goals (for
-//! `sum_of_features` both are summed over the features' own paths and sides; R is 1 where all goals are equal). 0.1 says
-//! that matched rows are on average a tenth of the action's own size apart. The path is that of standard borders for
-//! `aquila` too, which charges nothing along its borders and may leave most rows of a long recording to one goal.
+//! The open set needs a dimensionless number. The *relative discrepancy* is d / R. d is the mean distance of the rows
+//! and goals matched by the warping path: the larger of the mean over rows and the mean over goals, so that a long
+//! observation cannot hide goals that were never shown. R is the size of the action, the diagonal of the box around its
+//! goals. For `sum_of_features` both are summed over the features' own paths and sides; R is 1 if all goals are equal.
+//! A value of 0.1 means that matched rows are on average a tenth of the action's own size apart. Standard borders
+//! determine the path for `aquila` too, because that metric charges nothing along its borders and may match most rows
+//! of a long recording to one goal.
 //!
-//! Candidates of the same features are ranked by discrepancy; with others among them by relative discrepancy, because
-//! discrepancies over other features and units do not compare.
+//! Candidates with the same features are ranked by discrepancy. If features differ, all are ranked by relative
+//! discrepancy, because discrepancies over different features and units are not comparable.
 
 use super::discrepancy::detailed;
 use super::{FeatureDiscrepancy, Metric};
@@ -17,50 +18,51 @@ use crate::generalization::Goals;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Relative discrepancy above which the best candidate is not recognised, where none is given.
+/// Default threshold: relative discrepancy above which the best candidate is not recognized.
 pub const DEFAULT_THRESHOLD: f64 = 0.3;
-/// Largest matrix of an observation against goals, cells (8 bytes each).
+/// Largest matrix of observed rows x goals, in cells of 8 bytes.
 const MAX_CELLS: usize = 16 << 20;
 
-/// How to recognise.
+/// Options for recognition.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecognizeSpec {
-    /// How the discrepancy is measured.
+    /// Metric of the discrepancy.
     pub metric: Metric,
-    /// Largest relative discrepancy of a recognised action (no unit); 0.3 when absent.
+    /// Largest relative discrepancy (dimensionless) of a recognized action; 0.3 if absent.
     pub threshold: Option<f64>,
 }
 
-/// What was recognised, and every candidate.
+/// Result of a recognition, with every candidate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Recognition {
-    /// Name of the best candidate; absent is *unknown*: none is within the threshold.
+    /// Name of the best candidate; absent (*unknown*) if none is within the threshold.
     pub recognized: Option<String>,
-    /// The metric in use.
+    /// Metric in use.
     pub metric: Metric,
-    /// The threshold in use, relative discrepancy.
+    /// Threshold in use, relative discrepancy.
     pub threshold: f64,
-    /// Every comparable candidate, best first; ties by name.
+    /// All comparable candidates, best first; ties are ordered by name.
     pub matches: Vec<Match>,
-    /// Candidates that could not be compared, and why.
+    /// Candidates that could not be compared, with the reason.
     pub incomparable: Vec<Incomparable>,
 }
 
-/// One candidate's discrepancy.
+/// Discrepancy of one candidate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Match {
     /// Name of the action.
     pub name: String,
     /// D, features' unit.
     pub discrepancy: f64,
-    /// Mean distance of matched rows and goals over the action's size, no unit.
+    /// Mean distance of matched rows and goals divided by the action's size, dimensionless.
     pub relative_discrepancy: f64,
-    /// Whether it is within the threshold.
+    /// Whether the relative discrepancy is within the threshold.
     pub within_threshold: bool,
-    /// D split by feature, in the action's order.
+    /// Discrepancy split by feature, in the action's order.
     pub features: Vec<FeatureDiscrepancy>,
-    /// Warping path: pairs of observed row and goal, from 0; empty for `sum_of_features`, whose features have their own.
+    /// Warping path: pairs (observed row, goal) from 0; empty for `sum_of_features`, whose features have their own
+    /// paths.
     pub path: Vec<[u32; 2]>,
 }
 
@@ -69,36 +71,37 @@ pub struct Match {
 pub struct Incomparable {
     /// Name of the action.
     pub name: String,
-    /// The feature that is missing or in another unit.
+    /// Feature that is missing or has another unit.
     pub feature: Feature,
-    /// Unit in which it was observed; absent where it was not observed.
+    /// Unit in the observation; absent if the feature was not observed.
     pub observed_unit: Option<String>,
 }
 
-/// Why nothing could be compared.
+/// Reasons why nothing could be compared.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecognizeError {
-    /// The threshold is not a number from 0.
+    /// The threshold is negative or not a number.
     #[error("the threshold is {threshold}: give a relative discrepancy of 0 or more")]
     Threshold {
-        /// As asked for.
+        /// Requested threshold.
         threshold: f64,
     },
-    /// An observation too long to be warped whole.
-    #[error("{rows} observed rows against {goals} goals are more than {limit} cells: observe at a lower rate")]
+    /// The observation is too long for the full matrix.
+    #[error("{rows} observed rows x {goals} goals exceed {limit} cells: record at a lower rate")]
     TooLarge {
-        /// Observed rows.
+        /// Number of observed rows.
         rows: usize,
         /// Goals of the candidate.
         goals: usize,
-        /// Largest product.
+        /// Largest allowed product.
         limit: usize,
     },
 }
 
-/// Ranks `candidates` (name, goals) by how well `observed` (one row a sample) shows them.
+/// Ranks `candidates` (name, goals) by how well `observed` (one row per sample) matches them.
 ///
-/// A candidate is compared over its own features, matched by name and unit; what was observed beside them is left out.
+/// Each candidate is compared over its own features, matched by name and unit; additional observed features are
+/// ignored.
 ///
 /// # Errors
 /// [`RecognizeError`] for a threshold out of range or an observation that is too long.
@@ -129,7 +132,7 @@ pub fn recognize(
     Ok(Recognition { recognized, metric: spec.metric, threshold, matches, incomparable })
 }
 
-/// Best first: by discrepancy where all have the same features, else by relative discrepancy.
+/// Orders best first: by discrepancy if all have the same features, else by relative discrepancy.
 fn rank(matches: &mut [Match]) {
     let features = |found: &Match| {
         let mut names: Vec<String> = found.features.iter().map(|part| part.feature.header()).collect();
@@ -154,7 +157,8 @@ fn compare(name: &str, rows: &[f64], goals: &Goals, metric: Metric, threshold: f
     }
 }
 
-/// The columns of `features` out of the observation, or the feature that is missing with the unit it was observed in.
+/// Extracts the columns of `features` from the observation; the error is the missing feature and the unit it was
+/// observed in.
 fn project(observed: &Goals, features: &[Feature]) -> Result<Vec<f64>, (Feature, Option<String>)> {
     let column = |feature: &Feature| match observed.features().iter().position(|f| f.name == feature.name) {
         Some(column) if observed.features()[column].unit == feature.unit => Ok(column),
@@ -165,7 +169,7 @@ fn project(observed: &Goals, features: &[Feature]) -> Result<Vec<f64>, (Feature,
     Ok(observed.rows().flat_map(|row| columns.iter().map(|&column| row[column])).collect())
 }
 
-/// R, the size of an action in its features' unit.
+/// Size R of an action, in its features' unit.
 fn size(goals: &Goals, metric: Metric) -> f64 {
     let side = |feature: usize| {
         let values = goals.rows().map(move |row| row[feature]);

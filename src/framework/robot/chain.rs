@@ -1,7 +1,8 @@
-//! The chain a job moves: from base link to tool, free joints as genes, everything that cannot move folded into
+//! The chain a job moves, from base link to tool: free joints are genes, everything that cannot move is folded into
 //! constant transforms.
 //!
-//! Invariants: each gene has finite limits `lower <= upper`; `steps` are ordered base to tip and each names a gene.
+//! Invariants: each gene has finite limits `lower <= upper`; `steps` are ordered from base to tip, and each refers to a
+//! gene.
 
 use super::check::MAX_VALUE;
 use super::error::ChainError;
@@ -13,31 +14,31 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use utoipa::ToSchema;
 
-/// One free joint.
+/// One free joint, which the optimiser moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Gene {
-    /// Joint name.
+    /// Name of the joint.
     pub name: String,
     /// Revolute, continuous or prismatic.
     pub kind: JointKind,
-    /// Lower position limit, rad or m; -pi for continuous joints without another.
+    /// Lower position limit, rad or m; by default -pi for continuous joints.
     pub lower: f64,
-    /// Upper position limit, rad or m; pi for continuous joints without another.
+    /// Upper position limit, rad or m; by default pi for continuous joints.
     pub upper: f64,
-    /// Velocity limit (rad/s or m/s), where the URDF gives one.
+    /// Velocity limit, rad/s or m/s; `None` if the URDF has none.
     pub velocity: Option<f64>,
-    /// Acceleration limit (rad/s^2 or m/s^2), where the description gives one.
+    /// Acceleration limit, rad/s^2 or m/s^2; `None` if the robot's description has none.
     pub acceleration: Option<f64>,
 }
 
-/// One moving joint on the way from base to tip.
+/// One moving joint between base and tip.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {
     /// Constant rotation from the previous moving frame to this joint's frame.
     pub rotation: nalgebra::Matrix3<f64>,
     /// Constant translation from the previous moving frame to this joint's frame, m.
     pub translation: Vector3<f64>,
-    /// Whether `rotation` is the identity to the last bit.
+    /// Whether `rotation` is exactly the identity.
     pub unrotated: bool,
     pub axis: Vector3<f64>,
     pub prismatic: bool,
@@ -54,7 +55,7 @@ pub struct Chain {
     tip_link: String,
     genes: Vec<Gene>,
     pub(super) steps: Vec<Step>,
-    /// X of the tool in the last moving frame.
+    /// Pose X of the tool in the last moving frame.
     pub(super) tool: Isometry3<f64>,
     followers: Vec<(String, usize, f64, f64)>,
     fixed: Vec<(String, f64)>,
@@ -62,7 +63,7 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// Picks the chain that `spec` describes out of `model`.
+    /// Builds the chain that `spec` selects from `model`.
     ///
     /// # Errors
     /// [`ChainError`] with the joint or link, the value and a remedy.
@@ -89,7 +90,7 @@ impl Chain {
         }
         if let Some(&value) = spec.tool_offset_m.iter().find(|v| !v.is_finite() || v.abs() > MAX_VALUE) {
             let joint = model.links()[tip].clone();
-            let expected = "give metres, at most 1e6 either way";
+            let expected = "give metres within +/-1e6";
             return Err(ChainError::Value { role: "tool_offset_m", joint, value, expected });
         }
         let home = home(spec, &genes)?;
@@ -108,7 +109,7 @@ impl Chain {
         Ok(chain)
     }
 
-    /// Walks base to tip, multiplying everything constant together.
+    /// Walks from base to tip and multiplies constant transforms together.
     fn fold(&mut self, model: &RobotModel, path: &[usize], free: &[usize], held: &BTreeMap<usize, f64>) {
         let mut constant = Isometry3::identity();
         for &index in path {
@@ -144,7 +145,7 @@ impl Chain {
         self.tool = constant;
     }
 
-    /// Name of the base link: positions are expressed in its frame.
+    /// Name of the base link; positions are expressed in its frame.
     #[must_use]
     pub fn base_link(&self) -> &str {
         &self.base_link
@@ -174,13 +175,13 @@ impl Chain {
         self.genes.is_empty()
     }
 
-    /// Joints of the chain that hold one value (rad or m), base first.
+    /// Joints of the chain held at a constant value (rad or m), base first.
     #[must_use]
     pub fn fixed_joints(&self) -> &[(String, f64)] {
         &self.fixed
     }
 
-    /// Every movable joint of the chain at `joints`: free, mimicking and held ones, for viewers.
+    /// Positions of every movable joint of the chain at `joints` (free, mimicking and held ones), for viewers.
     #[must_use]
     pub fn all_positions(&self, joints: &[f64]) -> BTreeMap<String, f64> {
         let free = self.genes.iter().zip(joints).map(|(g, &q)| (g.name.clone(), q));
@@ -188,7 +189,7 @@ impl Chain {
         free.chain(follow).chain(self.fixed.iter().cloned()).collect()
     }
 
-    /// The home pose (n values, rad or m): as described, else 0 moved into the limits.
+    /// Home pose (n values, rad or m): as described, or else 0 clamped to the limits.
     #[must_use]
     pub fn home(&self) -> &[f64] {
         &self.home
@@ -278,12 +279,12 @@ fn free_joints(model: &RobotModel, spec: &RobotSpec, movable: &[usize]) -> Resul
     Ok(free)
 }
 
-/// Position limits of `joint`: the description's, else the URDF's, else one turn for continuous joints.
+/// Position limits of `joint`: from the description, or else the URDF; one turn for continuous joints.
 fn position_limits(model: &RobotModel, spec: &RobotSpec, joint: usize) -> Result<Option<[f64; 2]>, ChainError> {
     let joint = &model.joints()[joint];
     if let Some(&[lower, upper]) = spec.limits.get(&joint.name) {
         if let Some(value) = [lower, upper].into_iter().find(|v| !v.is_finite() || v.abs() > MAX_VALUE) {
-            let expected = "give limits of at most 1e6 either way";
+            let expected = "give limits within +/-1e6";
             return Err(ChainError::Value { role: "limits", joint: joint.name.clone(), value, expected });
         }
         if lower > upper {
@@ -302,7 +303,7 @@ fn held_value(model: &RobotModel, spec: &RobotSpec, joint: usize) -> Result<f64,
         return Ok(limits.map_or(0.0, |[lower, upper]| 0.0_f64.clamp(lower, upper)));
     };
     if !value.is_finite() || value.abs() > MAX_VALUE {
-        let expected = "give rad or m, at most 1e6 either way";
+        let expected = "give rad or m within +/-1e6";
         return Err(ChainError::Value { role: "fixed", joint: name.clone(), value, expected });
     }
     match limits {

@@ -1,32 +1,33 @@
-//! The tree check: a URDF is proven a tree with sane numbers before urdf-rs sees it.
+//! Tree check: proves that a URDF is a tree with sane numbers before urdf-rs parses it.
 //!
-//! urdf-rs alone accepts duplicate names, several parents and zero axes, and refuses a missing velocity limit; here the
-//! former are errors with the joint's name and the latter is tolerated, so that such a robot can still be looked at.
+//! urdf-rs alone accepts duplicate names, several parents and zero axes; here they are errors that name the joint. It
+//! also rejects a missing velocity limit, which is tolerated here so that such a robot can still be viewed.
 
 use super::error::ModelError;
 use crate::is_hidden;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Most links a robot may have.
+/// Maximum number of links of a robot.
 pub const MAX_LINKS: usize = 256;
-/// Most XML nodes a URDF may have.
+/// Maximum number of XML nodes in a URDF.
 pub const MAX_NODES: u32 = 100_000;
-/// Most characters of a link's or joint's name.
+/// Maximum length of a link's or joint's name, characters.
 const MAX_NAME: usize = 128;
-/// Largest position, length or mimic factor (rad, m, 1): what is beyond it would overflow in kinematics.
+/// Largest position, length or mimic factor (rad, m, 1); larger values could overflow in kinematics.
 pub(super) const MAX_VALUE: f64 = 1e6;
 
 const TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
-/// What a joint's `<limit>` declares.
+/// Values declared by a joint's `<limit>`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Declared {
     pub position: bool,
     pub velocity: bool,
 }
 
-/// A URDF that passed, with `velocity="0"` written into each `<limit>` that has none (urdf-rs demands one).
+/// A URDF that passed the check, with `velocity="0"` added to each `<limit>` that has none, because urdf-rs requires
+/// one.
 pub(super) struct Checked {
     pub text: String,
     pub declared: BTreeMap<String, Declared>,
@@ -38,10 +39,10 @@ struct RawJoint {
     mimic: Option<String>,
 }
 
-/// Checks the tree and every number a chain depends on.
+/// Checks the tree and every number that a chain depends on.
 ///
 /// # Errors
-/// The first broken rule, with the name of the joint or link.
+/// The first violated rule, with the name of the joint or link.
 pub(super) fn check(urdf: &str) -> Result<Checked, ModelError> {
     let options = ParsingOptions { nodes_limit: MAX_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(urdf, options)?;
@@ -181,7 +182,7 @@ fn bounded(joint: &str, attribute: &str, value: Option<f64>) -> Result<Option<f6
     Ok(value)
 }
 
-/// As much of a wrong value as an error should repeat.
+/// Truncates an invalid value for an error message.
 fn excerpt(text: &str) -> String {
     text.chars().take(64).collect()
 }

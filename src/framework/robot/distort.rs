@@ -1,17 +1,17 @@
-//! A robot as it really is: link lengths and base not quite as its description says.
+//! A robot that deviates from its description: scaled link lengths and a shifted base.
 
 use super::chain::Chain;
 use nalgebra::Vector3;
 
 impl Chain {
-    /// Number of links whose length [`Chain::distorted`] may change: those after each moving joint.
+    /// Number of links whose length [`Chain::distorted`] may change: one after each moving joint.
     #[must_use]
     pub fn link_count(&self) -> usize {
         self.steps.len()
     }
 
-    /// This chain with link i's translation (from moving joint i to the next one, or to the tool) scaled by
-    /// `link_scales[i]` (missing ones by 1) and the base shifted by `base_shift_m` (base frame, metres).
+    /// Copy of this chain in which the translation of link i (from moving joint i to the next one, or to the tool) is
+    /// scaled by `link_scales[i]` (1 if missing) and the base is shifted by `base_shift_m` (base frame, metres).
     #[must_use]
     pub fn distorted(&self, link_scales: &[f64], base_shift_m: [f64; 3]) -> Self {
         let mut chain = self.clone();

@@ -1,286 +1,287 @@
-//! Why a URDF is not a robot, or a robot not a chain: each error names the joint or link, the value and the remedy.
+//! Reasons why a URDF is not a robot, or a robot description not a chain. Each error names the joint or link, the value
+//! and the remedy.
 
-/// A URDF that cannot be a robot model.
+/// The URDF cannot be used as a robot model.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelError {
-    /// Not well-formed XML, a DTD, or too many nodes.
+    /// Malformed XML, a DTD, or too many nodes.
     #[error("the URDF cannot be read: {0}; a URDF is plain XML without DTD")]
     Xml(#[from] roxmltree::Error),
-    /// Another document.
+    /// The document is not a URDF.
     #[error("the root element is <{found}>, not <robot>: give a URDF (xacro must be expanded first)")]
     NotARobot {
         /// Name of the root element.
         found: String,
     },
-    /// urdf-rs refused what the tree check let pass.
+    /// urdf-rs rejected a URDF that had passed the tree check.
     #[error("the URDF cannot be read: {0}")]
     Urdf(#[from] urdf_rs::UrdfError),
-    /// Too many links.
-    #[error("the URDF has {found} links, the limit is {limit}: remove links that carry nothing")]
+    /// The robot has too many links.
+    #[error("the URDF has {found} links, the limit is {limit}: remove links that are not needed")]
     TooManyLinks {
-        /// Links found.
+        /// Number of links found.
         found: usize,
-        /// Links allowed.
+        /// Maximum number of links.
         limit: usize,
     },
-    /// No link.
+    /// There are no links.
     #[error("the URDF has no <link>")]
     NoLink,
-    /// An element without a needed attribute or child.
+    /// An element lacks a required attribute or child.
     #[error("{element} {name:?} has no {missing}")]
     Missing {
         /// `link` or `joint`.
         element: &'static str,
-        /// Its name, empty where that is missing.
+        /// Name of the element; empty if it has none.
         name: String,
-        /// What is missing.
+        /// Missing attribute or child.
         missing: &'static str,
     },
-    /// A name too long or with characters that are not seen.
+    /// A name is too long or contains invisible characters.
     #[error(
-        "the name of a {element} that begins with {begin:?} has {length} characters: give 1 to {limit} visible ones"
+        "the name of a {element} starting with {begin:?} has {length} characters: use 1 to {limit} visible ones"
     )]
     Name {
         /// `link` or `joint`.
         element: &'static str,
-        /// Its first characters.
+        /// Beginning of the name.
         begin: String,
-        /// Characters found.
+        /// Number of characters found.
         length: usize,
-        /// Characters allowed.
+        /// Maximum number of characters.
         limit: usize,
     },
-    /// A length, angle or factor beyond any robot.
-    #[error("joint {joint:?}: {attribute} holds {value:?}, the limit is {limit} either way: correct it or its unit")]
+    /// A length, angle or factor is implausibly large.
+    #[error("joint {joint:?}: {attribute} contains {value:?}, outside +/-{limit}: correct it or its unit")]
     TooFar {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The attribute.
+        /// Name of the attribute.
         attribute: String,
-        /// The value.
+        /// Value found.
         value: f64,
-        /// Largest magnitude.
+        /// Largest allowed magnitude.
         limit: f64,
     },
-    /// A name used twice.
+    /// Two elements share a name.
     #[error("two {element}s are named {name:?}: names must be unique")]
     Duplicate {
         /// `link` or `joint`.
         element: &'static str,
-        /// The name.
+        /// Shared name.
         name: String,
     },
-    /// A joint to or from nowhere.
+    /// A joint refers to a link that does not exist.
     #[error("joint {joint:?}: its {end} link {link:?} is not in the URDF")]
     UnknownLink {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
         /// `parent` or `child`.
         end: &'static str,
-        /// The missing link.
+        /// Name of the missing link.
         link: String,
     },
-    /// A link with two parents.
+    /// A link has two parents.
     #[error("link {link:?} is the child of joints {first:?} and {second:?}: a link has one parent; remove one joint")]
     TwoParents {
-        /// The link.
+        /// Name of the link.
         link: String,
-        /// One joint.
+        /// First joint.
         first: String,
-        /// The other.
+        /// Second joint.
         second: String,
     },
-    /// A closed loop.
-    #[error("link {link:?} is its own ancestor: the joints above it form a loop; URDF trees have none")]
+    /// The joints form a closed loop.
+    #[error("link {link:?} is its own ancestor: the joints above it form a loop, which a URDF must not have")]
     Cycle {
         /// A link on the loop.
         link: String,
     },
-    /// Several unconnected trees.
-    #[error("links {links:?} have no parent: one root is allowed; join them with fixed joints")]
+    /// There are several unconnected trees.
+    #[error("links {links:?} have no parent, but only one root is allowed: join them with fixed joints")]
     SeveralRoots {
-        /// The roots.
+        /// Names of the root links.
         links: Vec<String>,
     },
-    /// An unknown joint type.
+    /// The joint type is unknown.
     #[error(
-        "joint {joint:?} has type {found:?}: use revolute, continuous, prismatic or fixed (floating, planar and spherical are read, but no chain may pass them)"
+        "joint {joint:?} has type {found:?}: use revolute, continuous, prismatic or fixed (floating, planar and spherical joints are readable, but not allowed in a chain)"
     )]
     JointType {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The type found.
+        /// Type found.
         found: String,
     },
-    /// A number that is none, or not finite.
+    /// An attribute is not a finite number.
     #[error("joint {joint:?}: {attribute} is {found:?}, not {expected}")]
     Number {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The attribute.
+        /// Name of the attribute.
         attribute: String,
-        /// The text found.
+        /// Text found.
         found: String,
-        /// What is expected.
+        /// Expected form.
         expected: &'static str,
     },
-    /// An axis of no length.
+    /// An axis has length zero.
     #[error("joint {joint:?}: axis {axis:?} has no direction; give a unit vector such as \"0 0 1\"")]
     ZeroAxis {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The axis.
+        /// Axis as given.
         axis: [f64; 3],
     },
-    /// lower > upper.
+    /// The lower limit is above the upper one.
     #[error("joint {joint:?}: lower limit {lower} is above upper limit {upper}; swap them")]
     LimitOrder {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Lower limit.
+        /// Lower limit, rad or m.
         lower: f64,
-        /// Upper limit.
+        /// Upper limit, rad or m.
         upper: f64,
     },
-    /// A mimic of a joint that is not there.
+    /// A joint mimics one that does not exist.
     #[error("joint {joint:?} mimics {source_joint:?}, which is not in the URDF")]
     MimicUnknown {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The joint it names.
+        /// Name of the missing joint.
         source_joint: String,
     },
-    /// Mimics in a circle.
-    #[error("joint {joint:?} mimics itself through {through:?}; one joint of the circle must not mimic")]
+    /// Mimicking joints form a cycle.
+    #[error("joint {joint:?} mimics itself through {through:?}; at least one joint of the cycle must not mimic")]
     MimicCycle {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The joints on the circle.
+        /// Joints of the cycle.
         through: Vec<String>,
     },
 }
 
-/// A robot description that picks no valid chain out of its model.
+/// A robot description does not select a valid chain from its model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ChainError {
-    /// No such link.
+    /// There is no such link.
     #[error("{role} {link:?} is not a link of robot {robot:?}; its links are {links:?}")]
     UnknownLink {
         /// `base_link` or `tip_link`.
         role: &'static str,
-        /// The name given.
+        /// Name given.
         link: String,
-        /// The robot.
+        /// Name of the robot.
         robot: String,
-        /// All links.
+        /// Names of all links.
         links: Vec<String>,
     },
-    /// Several leaves and no tip given.
-    #[error("robot {robot:?} ends in {} links: choose tip_link among {leaves:?}", leaves.len())]
+    /// The robot has several leaf links and no tip is given.
+    #[error("robot {robot:?} has {} end links: choose tip_link from {leaves:?}", leaves.len())]
     AmbiguousTip {
-        /// The robot.
+        /// Name of the robot.
         robot: String,
-        /// The leaf links.
+        /// Names of the leaf links.
         leaves: Vec<String>,
     },
     /// The tip does not descend from the base.
-    #[error("link {tip:?} does not descend from {base:?}: choose base_link among its ancestors {ancestors:?}")]
+    #[error("link {tip:?} does not descend from {base:?}: choose base_link from its ancestors {ancestors:?}")]
     NotAncestor {
-        /// Base link.
+        /// Name of the base link.
         base: String,
-        /// Tip link.
+        /// Name of the tip link.
         tip: String,
-        /// Ancestors of the tip.
+        /// Names of the tip's ancestors.
         ancestors: Vec<String>,
     },
-    /// A joint no chain may pass.
+    /// A joint on the chain has more than one degree of freedom.
     #[error(
-        "the chain passes {kind} joint {joint:?}, which has no single position: choose base_link {below:?} or a link below it"
+        "the chain contains {kind} joint {joint:?}, whose position is not a single number: choose base_link {below:?} or a link below it"
     )]
     Unsupported {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Its kind.
+        /// Kind of the joint.
         kind: &'static str,
-        /// The link below it.
+        /// Name of the link below it.
         below: String,
     },
-    /// A name in the description that moves nothing here.
+    /// A joint named in the description does not move this chain.
     #[error("{role} names joint {joint:?}, which does not move this chain; movable joints are {movable:?}")]
     UnknownJoint {
         /// `free_joints`, `fixed`, `limits`, `acceleration` or `home`.
         role: &'static str,
-        /// The name given.
+        /// Name given.
         joint: String,
-        /// Joints that move the chain.
+        /// Names of the joints that move the chain.
         movable: Vec<String>,
     },
-    /// One joint named twice, or both free and fixed.
+    /// A joint is named twice, or as both free and fixed.
     #[error("joint {joint:?} is named twice among free_joints and fixed: a joint is either free or fixed, once")]
     NamedTwice {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
     },
-    /// Nothing left to move.
-    #[error("no joint is free between {base:?} and {tip:?}: remove one from fixed or choose another tip_link")]
+    /// No joint of the chain is free.
+    #[error("there is no free joint between {base:?} and {tip:?}: remove one from fixed or choose another tip_link")]
     NoFreeJoint {
-        /// Base link.
+        /// Name of the base link.
         base: String,
-        /// Tip link.
+        /// Name of the tip link.
         tip: String,
     },
-    /// A free joint without a range.
+    /// A free joint has no position limits.
     #[error("free joint {joint:?} has no position limits in the URDF: give limits.{joint} = [lower, upper]")]
     NoLimits {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
     },
-    /// A number of the description that is not finite or out of range.
+    /// A number of the description is not finite or out of range.
     #[error("{role} of joint {joint:?} is {value:?}: {expected}")]
     Value {
-        /// The field.
+        /// Field of the description.
         role: &'static str,
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The value given.
+        /// Value given, rad or m (rad/s^2 or m/s^2 for an acceleration).
         value: f64,
-        /// What is expected.
+        /// Expected range.
         expected: &'static str,
     },
-    /// A fixed value outside the limits.
+    /// A fixed value is outside the joint's limits.
     #[error("fixed value {value} of joint {joint:?} is outside its limits {lower} to {upper}")]
     FixedOutside {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The value given.
+        /// Value given, rad or m (rad/s^2 or m/s^2 for an acceleration).
         value: f64,
-        /// Lower limit.
+        /// Lower limit, rad or m.
         lower: f64,
-        /// Upper limit.
+        /// Upper limit, rad or m.
         upper: f64,
     },
-    /// A home outside the limits, or not a number.
+    /// A home value is not a number or outside the joint's limits.
     #[error("home {value} of joint {joint:?} is outside its limits {lower} to {upper}: give a value within them")]
     HomeOutside {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// The value given.
+        /// Value given, rad or m (rad/s^2 or m/s^2 for an acceleration).
         value: f64,
-        /// Lower limit.
+        /// Lower limit, rad or m.
         lower: f64,
-        /// Upper limit.
+        /// Upper limit, rad or m.
         upper: f64,
     },
-    /// lower > upper.
+    /// The lower limit is above the upper one.
     #[error(
         "joint {joint:?}: lower limit {lower} is above upper limit {upper} (limits of joints that mimic it included)"
     )]
     LimitOrder {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Lower limit.
+        /// Lower limit, rad or m.
         lower: f64,
-        /// Upper limit.
+        /// Upper limit, rad or m.
         upper: f64,
     },
 }

@@ -12,7 +12,7 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// Space for `chain`.
+    /// Allocates scratch space for `chain`.
     #[must_use]
     pub fn new(chain: &Chain) -> Self {
         Self {
@@ -22,7 +22,7 @@ impl Workspace {
     }
 }
 
-/// `v` rotated by `angle` rad about unit vector `axis`; coordinate axes take the short way.
+/// Rotates `v` by `angle` rad about unit vector `axis`, with a shortcut for coordinate axes.
 #[inline]
 fn rotate(axis: &Vector3<f64>, angle: f64, v: Vector3<f64>) -> Vector3<f64> {
     let (sin, cos) = angle.sin_cos();
@@ -48,7 +48,7 @@ fn joint_position(step: &Step, joints: &[f64]) -> f64 {
 
 /// `p_BT`: the tool centre point in the base frame, metres.
 ///
-/// `joints`: n free joints in gene order, rad or m. Walks tip to base so that only a point is transformed.
+/// `joints`: n free joints in gene order, rad or m. Walks from tip to base, so that only a point is transformed.
 ///
 /// # Panics
 /// If `joints` is shorter than the chain.

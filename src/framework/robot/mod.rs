@@ -1,11 +1,11 @@
 //! Robots: a URDF becomes an immutable model; kinematics are free functions over model and workspace.
 //!
-//! Monogram notation: `p_AB_C` is the position of point B measured from A, expressed in frame C (omitted when C = A);
-//! `X_AB` the pose of frame B in A; `B` base, `T` tool. Metres and radians.
+//! Monogram notation: `p_AB_C` is the position of point B measured from A, expressed in frame C (omitted if C = A);
+//! `X_AB` is the pose of frame B in A; `B` is the base, `T` the tool. Metres and radians.
 //!
 //! # Architecture Invariants
-//! - [`RobotModel`] and [`Chain`] never change once made; scratch space is a [`Workspace`] of the caller's.
-//! - No position leaves a chain's limits unless a caller gives it: limits are data here, not clamps.
+//! - [`RobotModel`] and [`Chain`] are immutable; scratch space is a [`Workspace`] owned by the caller.
+//! - Limits are data here, not clamps: positions are used as given, even outside a chain's limits.
 
 mod chain;
 mod check;

@@ -1,7 +1,7 @@
 //! The immutable robot model: links, joints, one root.
 //!
-//! Invariants: `joints[i].parent` and `.child` index `links`; every link but the root is the child of one joint; axes
-//! have unit length; mimics resolve to a joint that does not mimic.
+//! Invariants: `joints[i].parent` and `.child` index `links`; every link except the root is the child of exactly one
+//! joint; axes have unit length; a mimic refers to a joint that does not mimic.
 
 use super::check::check;
 use super::error::ModelError;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
-/// How a joint moves.
+/// Kind of a joint, by its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
@@ -22,16 +22,16 @@ pub enum JointKind {
     Prismatic,
     /// No motion.
     Fixed,
-    /// Six degrees of freedom; readable, no chain may pass it.
+    /// Six degrees of freedom; readable, but not allowed in a chain.
     Floating,
-    /// A plane; readable, no chain may pass it.
+    /// Motion in a plane; readable, but not allowed in a chain.
     Planar,
-    /// A ball joint; readable, no chain may pass it.
+    /// Ball joint; readable, but not allowed in a chain.
     Spherical,
 }
 
 impl JointKind {
-    /// The URDF's word.
+    /// The URDF's name of the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ impl JointKind {
         }
     }
 
-    /// Whether one number is its position.
+    /// Whether the position is a single number.
     #[must_use]
     pub fn is_movable(self) -> bool {
         matches!(self, Self::Revolute | Self::Continuous | Self::Prismatic)
@@ -55,11 +55,11 @@ impl JointKind {
 /// q = multiplier * q_source + offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mimic {
-    /// Index of the joint that leads; it does not mimic itself.
+    /// Index of the leading joint, which does not mimic.
     pub source: usize,
-    /// Factor (mimics of mimics already multiplied out).
+    /// Factor, with mimics of mimics already multiplied out.
     pub multiplier: f64,
-    /// rad or m.
+    /// Offset, rad or m.
     pub offset: f64,
 }
 
@@ -68,7 +68,7 @@ pub struct Mimic {
 pub struct Joint {
     /// Unique name.
     pub name: String,
-    /// How it moves.
+    /// Kind of motion.
     pub kind: JointKind,
     /// Index of the parent link.
     pub parent: usize,
@@ -76,17 +76,17 @@ pub struct Joint {
     pub child: usize,
     /// Pose of the joint frame at position 0 in the parent link's frame.
     pub x_pc: Isometry3<f64>,
-    /// Axis in the joint frame.
+    /// Unit axis in the joint frame.
     pub axis: Unit<Vector3<f64>>,
-    /// `[lower, upper]`, rad or m, where the URDF gives them.
+    /// Position limits `[lower, upper]`, rad or m; `None` if the URDF has none.
     pub limits: Option<[f64; 2]>,
-    /// rad/s or m/s, where the URDF gives it (> 0).
+    /// Velocity limit (> 0), rad/s or m/s; `None` if the URDF has none.
     pub velocity: Option<f64>,
-    /// The joint it follows.
+    /// The joint it follows; `None` if it does not mimic.
     pub mimic: Option<Mimic>,
 }
 
-/// A robot as its URDF describes it; immutable once read.
+/// A robot as described by its URDF; immutable.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotModel {
     name: String,
@@ -97,7 +97,7 @@ pub struct RobotModel {
 }
 
 impl RobotModel {
-    /// Reads a URDF: own tree check first, then urdf-rs.
+    /// Reads a URDF: first the tree check, then urdf-rs.
     ///
     /// # Errors
     /// [`ModelError`] with the joint's or link's name, the value and a remedy.
@@ -130,7 +130,7 @@ impl RobotModel {
         Ok(Self { name: robot.name, links, joints, parent_joint, root })
     }
 
-    /// The robot's name.
+    /// Name of the robot in the URDF.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -154,13 +154,13 @@ impl RobotModel {
         self.root
     }
 
-    /// Index of the joint whose child is `link`; none for the root.
+    /// Index of the joint whose child is `link`; `None` for the root.
     #[must_use]
     pub fn parent_joint(&self, link: usize) -> Option<usize> {
         self.parent_joint[link]
     }
 
-    /// Index of a link by name.
+    /// Index of the link named `name`.
     #[must_use]
     pub fn link_index(&self, name: &str) -> Option<usize> {
         self.links.iter().position(|l| l == name)
@@ -172,7 +172,7 @@ impl RobotModel {
         (0..self.links.len()).filter(|&l| self.joints.iter().all(|j| j.parent != l)).collect()
     }
 
-    /// Joint indices from link `base` down to link `tip`; none if `base` is no ancestor of `tip`.
+    /// Joint indices from link `base` down to link `tip`; `None` if `base` is not an ancestor of `tip`.
     #[must_use]
     pub fn path(&self, base: usize, tip: usize) -> Option<Vec<usize>> {
         let mut path = Vec::new();
@@ -204,7 +204,7 @@ fn pose(origin: &urdf_rs::Pose) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(origin.xyz.0), UnitQuaternion::from_euler_angles(roll, pitch, yaw))
 }
 
-/// Follows mimics of mimics to the joint that leads; the tree check has excluded circles.
+/// Follows mimics of mimics to the leading joint; the tree check has excluded cycles.
 fn resolve_mimic(joints: &[urdf_rs::Joint], index_of: &BTreeMap<&str, usize>, joint: usize) -> Option<Mimic> {
     let mut at = joint;
     let (mut multiplier, mut offset) = (1.0, 0.0);

@@ -1,4 +1,4 @@
-//! Known values, numeric against analytic, properties and refusals of robots.
+//! Robots: known values, numeric against analytic results, properties and rejected inputs.
 
 use super::*;
 use proptest::prelude::*;
@@ -75,7 +75,8 @@ proptest! {
     }
 }
 
-/// Revolute about a slanted axis, prismatic, continuous, fixed in between, and a mimic of the first with factor -0.5.
+/// Revolute about a slanted axis, prismatic, continuous, a fixed joint in between, and a mimic of the first with factor
+/// -0.5.
 fn all_kinds_urdf() -> String {
     let joint = |name: &str, kind: &str, parent: &str, child: &str, rest: &str| {
         format!(r#"<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>{rest}</joint>"#)
@@ -171,10 +172,10 @@ fn refuses_broken_trees(#[case] from: &str, #[case] to: &str, #[case] told: &str
 }
 
 #[rstest]
-#[case(r#"<axis xyz="1e300 1e300 1e300"/>"#, "axis xyz holds 1e300")]
-#[case(r#"<origin xyz="1e300 0 0"/>"#, "origin xyz holds 1e300")]
-#[case(r#"<limit lower="-1e308" upper="1e308"/>"#, "lower holds -1e308")]
-#[case(r#"<limit lower="-1" upper="1"/><mimic joint="j" multiplier="1e300"/>"#, "mimic multiplier holds 1e300")]
+#[case(r#"<axis xyz="1e300 1e300 1e300"/>"#, "axis xyz contains 1e300")]
+#[case(r#"<origin xyz="1e300 0 0"/>"#, "origin xyz contains 1e300")]
+#[case(r#"<limit lower="-1e308" upper="1e308"/>"#, "lower contains -1e308")]
+#[case(r#"<limit lower="-1" upper="1"/><mimic joint="j" multiplier="1e300"/>"#, "mimic multiplier contains 1e300")]
 fn refuses_numbers_that_would_overflow(#[case] inside: &str, #[case] told: &str) {
     let urdf = format!(
         r#"<robot name="r"><link name="a"/><link name="b"/>

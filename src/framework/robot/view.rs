@@ -1,58 +1,58 @@
-//! What people and programs are shown of a robot: links, joints, limits, the tree, and what keeps it from being armed.
+//! Summary of a robot for people and programs: links, joints, limits, the tree, and what prevents real motion.
 
 use super::chain::{Chain, Gene};
 use super::model::{JointKind, RobotModel};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A robot model, summarised.
+/// Summary of a robot model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RobotSummary {
     /// Name in the URDF.
     pub name: String,
-    /// The link everything hangs from.
+    /// Root of the tree of links.
     pub root_link: String,
     /// All links, in the URDF's order.
     pub links: Vec<String>,
-    /// Links without children: possible tips.
+    /// Links without children: possible tips of a chain.
     pub leaf_links: Vec<String>,
     /// All joints, in the URDF's order.
     pub joints: Vec<JointSummary>,
-    /// What is missing before a real robot may be moved with this model.
+    /// Information that must be added before a real robot may be moved with this model.
     pub notes: Vec<RobotNote>,
 }
 
-/// One joint, summarised.
+/// Summary of one joint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JointSummary {
     /// Unique name.
     pub name: String,
-    /// How it moves.
+    /// Kind of motion.
     pub kind: JointKind,
-    /// Link it hangs from.
+    /// Link on the base side.
     pub parent_link: String,
-    /// Link it carries.
+    /// Link on the tip side.
     pub child_link: String,
-    /// Position limits, rad or m, where given.
+    /// Position limits `[lower, upper]`, rad or m; absent if the URDF has none.
     pub limits: Option<[f64; 2]>,
-    /// Velocity limit, rad/s or m/s, where given.
+    /// Velocity limit, rad/s or m/s; absent if the URDF has none.
     pub velocity: Option<f64>,
-    /// The joint it follows, if it mimics one.
+    /// Name of the joint it follows; absent if it does not mimic.
     pub mimics: Option<String>,
 }
 
-/// Something the URDF does not say.
+/// Information missing from the URDF.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RobotNote {
-    /// The joint concerned.
+    /// Name of the joint.
     pub joint: String,
     /// Stable code: `no_position_limits`, `no_velocity_limit` or `not_drivable`.
     pub code: String,
-    /// What it means and what to do.
+    /// Explanation and remedy.
     pub message: String,
 }
 
-/// Summarises `model`.
+/// Summarises a model.
 #[must_use]
 pub fn summarize(model: &RobotModel) -> RobotSummary {
     let link = |index: usize| model.links()[index].clone();
@@ -65,7 +65,7 @@ pub fn summarize(model: &RobotModel) -> RobotSummary {
         if !joint.kind.is_movable() {
             if joint.kind != JointKind::Fixed {
                 let kind = joint.kind.name();
-                note(name, "not_drivable", format!("{kind} joint {name:?} can be shown, but no chain may pass it"));
+                note(name, "not_drivable", format!("{kind} joint {name:?} can be shown, but is not allowed in a chain"));
             }
             continue;
         }
@@ -100,20 +100,20 @@ pub fn summarize(model: &RobotModel) -> RobotSummary {
     }
 }
 
-/// The chain a job moves, summarised.
+/// Summary of the chain a job moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ChainSummary {
-    /// Positions are expressed in this link's frame.
+    /// Base link; positions are expressed in its frame.
     pub base_link: String,
-    /// The link that carries the tool.
+    /// Link that carries the tool.
     pub tip_link: String,
     /// Free joints in gene order.
     pub free_joints: Vec<Gene>,
-    /// Joints of the chain held at one value (rad or m).
+    /// Joints of the chain held at a constant value (rad or m).
     pub fixed_joints: std::collections::BTreeMap<String, f64>,
 }
 
-/// Summarises `chain`.
+/// Summarises a chain.
 #[must_use]
 pub fn summarize_chain(chain: &Chain) -> ChainSummary {
     ChainSummary {

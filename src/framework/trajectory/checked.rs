@@ -1,4 +1,4 @@
-//! The trajectory that was checked, and how near it comes to each limit.
+//! A trajectory that has passed all checks, and how close it comes to each limit.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -10,11 +10,11 @@ pub struct Point {
     pub time_s: f64,
     /// Joint positions in gene order, rad or m.
     pub positions: Vec<f64>,
-    /// rad/s or m/s.
+    /// Joint velocities in gene order, rad/s or m/s.
     pub velocities: Vec<f64>,
-    /// rad/s^2 or m/s^2.
+    /// Joint accelerations in gene order, rad/s^2 or m/s^2.
     pub accelerations: Vec<f64>,
-    /// Index of the waypoint reached here, from 0; none on the way.
+    /// Index of the waypoint reached here, from 0; `None` between waypoints.
     pub waypoint: Option<usize>,
 }
 
@@ -24,30 +24,31 @@ pub struct Point {
 pub enum LimitKind {
     /// Position within lower and upper.
     Position,
-    /// Speed.
+    /// Magnitude of the velocity.
     Velocity,
-    /// Acceleration.
+    /// Magnitude of the acceleration.
     Acceleration,
 }
 
-/// Where a limit is used most.
+/// The point at which a kind of limit is used most.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Tightest {
-    /// The limit.
+    /// Kind of limit.
     pub kind: LimitKind,
     /// Joint name.
     pub joint: String,
-    /// Time, s.
+    /// Time from the start, s.
     pub time_s: f64,
-    /// The value there.
+    /// Value at that time, in the limit's unit.
     pub value: f64,
-    /// The limit there (for positions the nearer one).
+    /// Limit at that time; for positions the closer of the two.
     pub limit: f64,
-    /// Share of the limit used: 1 is at the limit. For positions, distance from the middle over half the range.
+    /// Share of the limit used: 1 means at the limit. For positions, the distance from the middle of the range divided
+    /// by half the range.
     pub ratio: f64,
 }
 
-/// Limits of one joint as planned with.
+/// Planning limits of one joint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub(crate) struct JointLimits {
     pub name: String,
@@ -57,81 +58,81 @@ pub(crate) struct JointLimits {
     pub acceleration: f64,
 }
 
-/// Why waypoints do not make a trajectory.
+/// Reasons why waypoints do not form a trajectory.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrajectoryError {
-    /// No waypoint.
+    /// There are no waypoints.
     #[error("a trajectory needs at least 1 waypoint")]
     Empty,
-    /// A waypoint of another length.
+    /// A waypoint has the wrong number of values.
     #[error("waypoint {waypoint} has {found} values for {expected} joints")]
     Ragged {
-        /// Waypoint index from 0; none is the start pose.
+        /// Index of the waypoint, from 0, or the start pose.
         waypoint: String,
-        /// Values found.
+        /// Number of values found.
         found: usize,
-        /// Values expected.
+        /// Number of joints.
         expected: usize,
     },
-    /// NaN or infinity.
+    /// A value is NaN or infinite.
     #[error("joint {joint:?} is {value} at {time_s} s, not a finite number")]
     NonFinite {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Time, s.
+        /// Time from the start, s.
         time_s: f64,
-        /// The value.
+        /// Value found, in the unit of the limit.
         value: f64,
     },
-    /// A limit that is passed.
+    /// A limit is exceeded.
     #[error(
-        "{kind} of joint {joint:?} is {value} at {time_s} s, its limit is {limit}: choose other limits or keep the search within them"
+        "{kind} of joint {joint:?} is {value} at {time_s} s, beyond its limit {limit}: change the limit or keep the search within it"
     )]
     Limit {
         /// `position`, `velocity` or `acceleration`.
         kind: &'static str,
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Time, s.
+        /// Time from the start, s.
         time_s: f64,
-        /// The value.
+        /// Value found, in the unit of the limit.
         value: f64,
-        /// The limit.
+        /// Limit, in the same unit.
         limit: f64,
     },
-    /// Time that does not increase.
-    #[error("sample {index} at {time_s} s does not follow {previous_s} s")]
+    /// Time does not increase.
+    #[error("sample {index} at {time_s} s is not after {previous_s} s")]
     NonIncreasing {
         /// Sample index from 0.
         index: usize,
-        /// Its time.
+        /// Time of the sample, s.
         time_s: f64,
-        /// The time before.
+        /// Time of the previous sample, s.
         previous_s: f64,
     },
-    /// Moving at an end.
-    #[error("joint {joint:?} moves at {velocity} at {time_s} s: a trajectory starts and ends at rest")]
+    /// A joint moves at the start or the end.
+    #[error("joint {joint:?} moves at {velocity} at {time_s} s: a trajectory must start and end at rest")]
     NotAtRest {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// Time, s.
+        /// Time from the start, s.
         time_s: f64,
-        /// Its velocity.
+        /// Velocity at that time, rad/s or m/s.
         velocity: f64,
     },
-    /// A planning parameter out of its range.
+    /// A planning parameter is out of range.
     #[error("{field} is {value}: {expected}")]
     Value {
-        /// The field.
+        /// Name of the parameter.
         field: &'static str,
-        /// The value given.
+        /// Value given.
         value: f64,
-        /// What is expected.
+        /// Expected range.
         expected: &'static str,
     },
 }
 
-/// A trajectory that keeps all limits. Only [`plan()`](super::plan()) makes one.
+/// A trajectory within all limits. Only [`plan()`](super::plan()) creates one.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct CheckedTrajectory {
     joints: Vec<String>,
@@ -141,7 +142,7 @@ pub struct CheckedTrajectory {
     notes: Vec<String>,
 }
 
-/// Share by which a computed value may pass its limit: rounding.
+/// Relative amount by which a computed value may exceed its limit, for rounding.
 const SLACK: f64 = 1e-9;
 
 impl CheckedTrajectory {
@@ -192,13 +193,13 @@ impl CheckedTrajectory {
         &self.joints
     }
 
-    /// Joints of the chain that hold one value throughout, rad or m.
+    /// Joints of the chain held at a constant value throughout, rad or m.
     #[must_use]
     pub fn fixed_joints(&self) -> &std::collections::BTreeMap<String, f64> {
         &self.fixed_joints
     }
 
-    /// The samples, time increasing from 0.
+    /// The samples; time increases from 0.
     #[must_use]
     pub fn points(&self) -> &[Point] {
         &self.points
@@ -216,7 +217,7 @@ impl CheckedTrajectory {
         &self.tightest
     }
 
-    /// What was assumed in planning.
+    /// Assumptions made in planning.
     #[must_use]
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -227,7 +228,7 @@ fn usage(limit: &JointLimits, point: &Point, index: usize) -> [Tightest; 3] {
     let position = point.positions[index];
     let (middle, half) = (f64::midpoint(limit.lower, limit.upper), (limit.upper - limit.lower) / 2.0);
     let away = (position - middle).abs();
-    // a joint without range is at its limit when it stands there
+    // A joint without a range counts as at its limit while it stays there.
     let position_ratio = if half > 0.0 { away / half } else { 1.0 + away };
     let make = |kind, value: f64, bound, ratio| Tightest {
         kind,

@@ -27,7 +27,7 @@ pub fn csv(trajectory: &CheckedTrajectory) -> String {
     text
 }
 
-/// A CSV field, quoted where it must be.
+/// A CSV field, quoted if necessary.
 fn quoted(field: &str) -> String {
     if field.contains(['"', ',', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))
@@ -36,7 +36,7 @@ fn quoted(field: &str) -> String {
     }
 }
 
-/// JSON: joints, fixed joints, points, the most used limits, notes.
+/// JSON: joints, fixed joints, points, tightest limits, notes.
 ///
 /// # Errors
 /// Never for a checked trajectory, whose numbers are finite.
@@ -44,7 +44,7 @@ pub fn json(trajectory: &CheckedTrajectory) -> Result<String, serde_json::Error>
     serde_json::to_string_pretty(trajectory)
 }
 
-/// YAML of `trajectory_msgs/msg/JointTrajectory` (ROS 2), as `ros2 topic pub` takes it. Positions in rad or m.
+/// YAML of `trajectory_msgs/msg/JointTrajectory` (ROS 2), as accepted by `ros2 topic pub`. Positions in rad or m.
 #[must_use]
 pub fn ros2_joint_trajectory(trajectory: &CheckedTrajectory) -> String {
     let names: Vec<String> = trajectory.joints().iter().map(|j| scalar(j)).collect();
@@ -67,7 +67,7 @@ pub fn ros2_joint_trajectory(trajectory: &CheckedTrajectory) -> String {
     text
 }
 
-/// A YAML scalar that is a string whatever it looks like.
+/// A YAML scalar that is always read as a string.
 fn scalar(text: &str) -> String {
     format!("'{}'", text.replace('\'', "''"))
 }

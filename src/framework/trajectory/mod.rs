@@ -1,8 +1,8 @@
 //! Trajectories: waypoints joined into a time-parameterised joint motion, checked, exported.
 //!
 //! # Architecture Invariants
-//! - A [`CheckedTrajectory`] exists only if it is finite, its time increases, it starts and ends at rest and every
-//!   sample and segment keeps the position, velocity and acceleration limits of its chain.
+//! - A [`CheckedTrajectory`] exists only if it is finite, its time increases, it starts and ends at rest, and every
+//!   sample and segment respects the position, velocity and acceleration limits of its chain.
 
 mod checked;
 pub mod export;

@@ -1,30 +1,31 @@
 //! Time parameterisation by uniform scaling: rest-to-rest quintic segments between waypoints.
 //!
-//! Between two waypoints all joints share s(u) = 10 u^3 - 15 u^4 + 6 u^5, u = t / T: position, velocity and
-//! acceleration are continuous, the arm rests at each waypoint (where a feature is observed). With |dq| the way of a
-//! joint, max |v| = 15/8 |dq| / T and max |a| = 10/sqrt(3) |dq| / T^2; T is the least that keeps every joint's limits.
+//! Between two waypoints all joints share s(u) = 10 u^3 - 15 u^4 + 6 u^5, u = t / T. Position, velocity and
+//! acceleration are continuous, and the arm rests at each waypoint, where a feature is observed. If |dq| is the
+//! distance a joint moves, max |v| = 15/8 |dq| / T and max |a| = 10/sqrt(3) |dq| / T^2; T is the smallest value that
+//! respects every joint's limits.
 
 use super::checked::{CheckedTrajectory, JointLimits, Point, TrajectoryError};
 use crate::robot::Chain;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Velocity limit assumed where the URDF gives none, rad/s or m/s.
+/// Velocity limit assumed if the URDF has none, rad/s or m/s.
 pub const DEFAULT_VELOCITY: f64 = 0.5;
-/// Acceleration limit assumed where the robot's description gives none (a URDF never does), rad/s^2 or m/s^2.
+/// Acceleration limit assumed if the robot's description has none (a URDF never does), rad/s^2 or m/s^2.
 pub const DEFAULT_ACCELERATION: f64 = 2.0;
-/// Two poses nearer than this in every joint are one (rad or m).
+/// Poses that differ by less than this in every joint (rad or m) are considered equal.
 const SAME_POSE: f64 = 1e-12;
-/// Most samples of a trajectory.
+/// Maximum number of samples of a trajectory.
 const MAX_SAMPLES: f64 = 1e6;
 
-/// How waypoints are joined.
+/// Parameters of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlanSpec {
-    /// Time between two samples, s; each waypoint is a sample of its own.
+    /// Time between two samples, s; each waypoint is an additional sample.
     pub sample_s: f64,
-    /// Share of the velocity and acceleration limits to use, above 0 to 1.
+    /// Share of the velocity and acceleration limits to use, in (0, 1].
     pub speed: f64,
     /// Time at rest at each waypoint, s.
     pub dwell_s: f64,
@@ -39,7 +40,7 @@ impl Default for PlanSpec {
 /// Joins `start` (n values, rad or m) and the waypoints into a trajectory within the chain's limits, and checks it.
 ///
 /// # Errors
-/// [`TrajectoryError`] with joint, time, value and limit; a waypoint outside the position limits is one.
+/// [`TrajectoryError`] with joint, time, value and limit, for example if a waypoint is outside the position limits.
 pub fn plan(
     chain: &Chain,
     start: &[f64],
@@ -82,14 +83,14 @@ pub fn plan(
         from = to;
     }
     if points.len() == 1 {
-        // nothing moves: the pose is held for one sample
+        // If nothing moves, the pose is held for one sample.
         points.push(rest(spec.sample_s, start, points[0].waypoint));
     }
     let fixed = chain.fixed_joints().iter().cloned().collect();
     CheckedTrajectory::new(&limits, fixed, points, notes)
 }
 
-/// Least time of the segment, s.
+/// Shortest time of the segment, s.
 fn duration(limits: &[JointLimits], from: &[f64], to: &[f64], speed: f64) -> f64 {
     let mut least_s = 0.0_f64;
     for (limit, (a, b)) in limits.iter().zip(from.iter().zip(to)) {
@@ -103,7 +104,7 @@ fn duration(limits: &[JointLimits], from: &[f64], to: &[f64], speed: f64) -> f64
     least_s
 }
 
-/// Writes where the joints are `lag_s` before they come to rest at `to`, on their quickest way there from `from` (n
+/// Writes to `pose` where the joints are `lag_s` before they come to rest at `to`, on the fastest motion from `from` (n
 /// values, rad or m).
 pub fn late(limits: &[JointLimits], from: &[f64], to: &[f64], lag_s: f64, pose: &mut [f64]) {
     let duration_s = duration(limits, from, to, 1.0);
@@ -128,7 +129,7 @@ fn sample(start_s: f64, duration_s: f64, u: f64, from: &[f64], to: &[f64]) -> Po
     }
 }
 
-/// Velocity and acceleration limits of a chain's joints, with a note on each that had to be assumed.
+/// Velocity and acceleration limits of a chain's joints, with a note for each assumed one.
 pub fn limits(chain: &Chain) -> (Vec<JointLimits>, Vec<String>) {
     let mut notes = Vec::new();
     let mut assumed = |joint: &str, what: &str, value: f64, unit: &str| {

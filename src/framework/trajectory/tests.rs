@@ -1,4 +1,4 @@
-//! Plans keep limits and smoothness; what breaks them is refused; exports hold every sample.
+//! Plans respect limits and are smooth; invalid input is rejected; exports contain every sample.
 
 use super::*;
 use crate::preset::shipped;
