@@ -21,7 +21,8 @@ pub struct HealthcheckArguments {
 /// # Errors
 /// If the server does not answer, or answers that it is not ready.
 pub fn run(arguments: &HealthcheckArguments) -> anyhow::Result<()> {
-    let timeout = Duration::try_from_secs_f64(arguments.timeout).context("--timeout is not a valid number of seconds")?;
+    let timeout =
+        Duration::try_from_secs_f64(arguments.timeout).context("--timeout is not a valid number of seconds")?;
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     let url = format!("http://{}/readyz", arguments.address);
     let answer = runtime.block_on(async {

@@ -136,7 +136,11 @@ async fn made(app: &App, id: &JobId) -> Result<ActionId, AppError> {
         }
         if job.state.is_final() {
             let why = job.state_reason.unwrap_or_default();
-            return Err(AppError::new(ErrorKind::Conflict, "no_action", format!("{id} did not create an action: {why}")));
+            return Err(AppError::new(
+                ErrorKind::Conflict,
+                "no_action",
+                format!("{id} did not create an action: {why}"),
+            ));
         }
         seen = job.last_seq;
     }

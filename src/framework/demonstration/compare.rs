@@ -56,12 +56,8 @@ fn report_durations(streams: &[Stream], findings: &mut Findings) {
     let Some(longest) = streams.iter().max_by(|a, b| a.duration_s().total_cmp(&b.duration_s())) else { return };
     let allowed_s = DURATION_TOLERANCE_S.max(DURATION_TOLERANCE * longest.duration_s());
     for stream in streams.iter().filter(|s| longest.duration_s() - s.duration_s() > allowed_s) {
-        let message = format!(
-            "lasts {:.3} s, but {:?} lasts {:.3} s",
-            stream.duration_s(),
-            longest.name(),
-            longest.duration_s()
-        );
+        let message =
+            format!("lasts {:.3} s, but {:?} lasts {:.3} s", stream.duration_s(), longest.name(), longest.duration_s());
         let remedy = "check that the recording is complete and belongs to this demonstration";
         findings.push(Finding::warning(FindingCode::DurationMismatch, message, remedy).in_stream(stream.name()));
     }

@@ -20,9 +20,7 @@ pub struct Stream {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StreamError {
     /// There is no feature, or there are fewer than two samples.
-    #[error(
-        "stream {stream:?} has {samples} samples of {features} features: give at least 2 samples of 1 feature"
-    )]
+    #[error("stream {stream:?} has {samples} samples of {features} features: give at least 2 samples of 1 feature")]
     TooSmall {
         /// Stream name.
         stream: String,

@@ -23,10 +23,8 @@ pub(super) fn decode<'a>(bytes: &'a [u8], stream: &str, findings: &mut Findings)
     }
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.trim().is_empty() {
-        findings.push(
-            Finding::error(FindingCode::Empty, "the file is empty", "give a file of samples")
-                .in_stream(stream),
-        );
+        findings
+            .push(Finding::error(FindingCode::Empty, "the file is empty", "give a file of samples").in_stream(stream));
         return None;
     }
     Some(text)

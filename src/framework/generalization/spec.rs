@@ -92,7 +92,9 @@ pub enum GeneralizeError {
         limit: usize,
     },
     /// A demonstration lacks a feature.
-    #[error("demonstration {demonstration:?} has no feature {feature:?}, only {available:?}: select features that all have")]
+    #[error(
+        "demonstration {demonstration:?} has no feature {feature:?}, only {available:?}: select features that all have"
+    )]
     MissingFeature {
         /// Name of the demonstration.
         demonstration: String,

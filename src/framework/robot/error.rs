@@ -38,9 +38,7 @@ pub enum ModelError {
         missing: &'static str,
     },
     /// A name is too long or contains invisible characters.
-    #[error(
-        "the name of a {element} starting with {begin:?} has {length} characters: use 1 to {limit} visible ones"
-    )]
+    #[error("the name of a {element} starting with {begin:?} has {length} characters: use 1 to {limit} visible ones")]
     Name {
         /// `link` or `joint`.
         element: &'static str,

@@ -65,7 +65,11 @@ pub fn summarize(model: &RobotModel) -> RobotSummary {
         if !joint.kind.is_movable() {
             if joint.kind != JointKind::Fixed {
                 let kind = joint.kind.name();
-                note(name, "not_drivable", format!("{kind} joint {name:?} can be shown, but is not allowed in a chain"));
+                note(
+                    name,
+                    "not_drivable",
+                    format!("{kind} joint {name:?} can be shown, but is not allowed in a chain"),
+                );
             }
             continue;
         }
