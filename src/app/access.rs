@@ -1,9 +1,9 @@
-//! Who may use the service: the holder of its token.
+//! Authentication: the holder of the server's token may use the service.
 
 use sha2::{Digest as _, Sha256};
 use subtle::ConstantTimeEq as _;
 
-/// Recognises the token without keeping it; comparison takes the same time for every wrong token.
+/// Recognizes the token without storing it; a comparison takes the same time for every wrong token.
 #[derive(Debug, Clone)]
 pub struct Access {
     bearer: [u8; 32],
@@ -11,27 +11,27 @@ pub struct Access {
 }
 
 impl Access {
-    /// Admits `token` and what is derived from it.
+    /// Accepts `token` and the session value derived from it.
     #[must_use]
     pub fn new(token: &str) -> Self {
         let session = hex::encode(Sha256::digest(format!("cgda session 1\n{token}")));
         Self { bearer: Sha256::digest(token).into(), session }
     }
 
-    /// Whether this is the token.
+    /// Whether `token` is the server's token.
     #[must_use]
     pub fn admits_token(&self, token: &str) -> bool {
         let digest: [u8; 32] = Sha256::digest(token).into();
         digest.ct_eq(&self.bearer).into()
     }
 
-    /// What a browser keeps instead of the token.
+    /// Value that a browser stores instead of the token.
     #[must_use]
     pub fn session(&self) -> &str {
         &self.session
     }
 
-    /// Whether this is what [`Access::session`] gave out.
+    /// Whether `session` is the value of [`Access::session`].
     #[must_use]
     pub fn admits_session(&self, session: &str) -> bool {
         session.as_bytes().ct_eq(self.session.as_bytes()).into()

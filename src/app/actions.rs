@@ -8,10 +8,10 @@ use crate::app::{App, compute, out_of_bounds, unknown_format};
 use crate::framework::generalization::{Goals, RbfSpec, goals_to_csv, interpolate};
 
 impl App {
-    /// Starts a generalization job; the action is in the job's result.
+    /// Starts a generalization job, whose result names the action.
     ///
     /// # Errors
-    /// `Invalid` request; `Conflict` and `Invalid` by idempotency as [`App::create_job`].
+    /// `Invalid` request; with an idempotency key as for [`App::create_job`].
     pub async fn create_action(
         &self,
         request: GeneralizationRequest,
@@ -20,7 +20,7 @@ impl App {
         self.create_job(CreateJob::Generalization(request), idempotency_key).await
     }
 
-    /// Newest first.
+    /// Lists actions, newest first.
     ///
     /// # Errors
     /// `Malformed` page.
@@ -30,7 +30,7 @@ impl App {
         Ok(keyset.page(actions, |action| action.id.to_string()))
     }
 
-    /// One version of an action.
+    /// Reads one version of an action.
     ///
     /// # Errors
     /// `NotFound`.
@@ -38,7 +38,7 @@ impl App {
         Ok(self.ports.store.action(id).await?)
     }
 
-    /// Its goals.
+    /// Reads the goals of an action.
     ///
     /// # Errors
     /// `NotFound`.
@@ -46,10 +46,10 @@ impl App {
         Ok(self.ports.store.action_goals(id).await?)
     }
 
-    /// `n` points (2 to 10000) of the curve through the goals, by multiquadric radial basis functions.
+    /// Interpolates `n` points (2 to 10000) of the curve through the goals with multiquadric radial basis functions.
     ///
     /// # Errors
-    /// `NotFound`; `Malformed` n; `Conflict` when no accurate curve goes through these goals.
+    /// `NotFound`; `Malformed` n; `Conflict` if there is no accurate curve through these goals.
     pub async fn interpolate_action(&self, id: &ActionId, n: u32) -> Result<Interpolation, AppError> {
         if !(2..=10_000).contains(&n) {
             return Err(out_of_bounds("n", n, "2 to 10000"));
@@ -66,7 +66,7 @@ impl App {
         })
     }
 
-    /// The goals as `csv` or `json`.
+    /// Exports the goals as `csv` or `json`.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` format.

@@ -1,4 +1,4 @@
-//! Recognition: which action an observed stream shows, or none of them.
+//! Recognition: which action an observation shows, or none.
 
 use crate::app::model::{
     ActionId, ActionView, AppError, ErrorKind, IncomparableCandidate, MAX_PAGE_SIZE, Observed, PageQuery,
@@ -10,10 +10,10 @@ use crate::framework::recognition::{Recognition, RecognizeError, RecognizeSpec, 
 use std::collections::{BTreeMap, BTreeSet};
 
 impl App {
-    /// Compares what was observed with the candidates, at once.
+    /// Compares an observation with the candidates, synchronously.
     ///
     /// # Errors
-    /// `Invalid` request, references to nothing included.
+    /// `Invalid` request, including references to resources that do not exist.
     pub async fn recognize(&self, request: RecognizeRequest) -> Result<RecognitionView, AppError> {
         let observed = self.observed(request.observed).await?;
         let actions = self.candidates(&request.candidates).await?;

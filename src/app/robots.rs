@@ -1,4 +1,4 @@
-//! Robots: a URDF and the part of it that moves; every version is immutable.
+//! Robots: a URDF and the chain selected from it; every version is immutable.
 
 use crate::app::model::{AppError, CreateRobot, Keyset, Page, PageQuery, RobotId, RobotView};
 use crate::app::ports::NewRobot;
@@ -15,10 +15,10 @@ fn read(urdf: &str, spec: &RobotSpec) -> Result<(RobotSummary, ChainSummary), Ap
 }
 
 impl App {
-    /// Checks and keeps a robot.
+    /// Checks and stores a robot.
     ///
     /// # Errors
-    /// `Invalid` when the URDF or the chain is wrong.
+    /// `Invalid` if the URDF or the chain is invalid.
     pub async fn create_robot(&self, request: CreateRobot) -> Result<RobotView, AppError> {
         let CreateRobot { name, urdf, spec } = request;
         check_name("/name", &name)?;
@@ -41,7 +41,7 @@ impl App {
         Ok(self.ports.store.insert_robot(NewRobot { view, urdf }).await?)
     }
 
-    /// Newest first.
+    /// Lists robots, newest first.
     ///
     /// # Errors
     /// `Malformed` page.
@@ -51,7 +51,7 @@ impl App {
         Ok(keyset.page(robots, |robot| robot.id.to_string()))
     }
 
-    /// One robot.
+    /// Reads one robot.
     ///
     /// # Errors
     /// `NotFound`.
@@ -59,7 +59,7 @@ impl App {
         Ok(self.ports.store.robot(id).await?)
     }
 
-    /// Its URDF, as it was uploaded.
+    /// Reads a robot's URDF, as uploaded.
     ///
     /// # Errors
     /// `NotFound`.
@@ -67,10 +67,10 @@ impl App {
         Ok(self.ports.store.robot_urdf(id).await?)
     }
 
-    /// Deletes it unless a job names it.
+    /// Deletes a robot unless a job uses it.
     ///
     /// # Errors
-    /// `NotFound`; `Conflict` when jobs name it.
+    /// `NotFound`; `Conflict` if jobs use it.
     pub async fn delete_robot(&self, id: &RobotId) -> Result<(), AppError> {
         Ok(self.ports.store.delete_robot(id).await?)
     }

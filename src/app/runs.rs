@@ -1,4 +1,4 @@
-//! Runs: one finished repetition of an execution job each.
+//! Runs: finished repetitions of execution jobs.
 
 use crate::app::model::{
     AppError, Convergence, ErrorKind, Keyset, Page, PageQuery, RunFilter, RunGoals, RunId, RunTrials, RunView,
@@ -7,7 +7,7 @@ use crate::app::model::{
 use crate::app::{App, out_of_bounds};
 
 impl App {
-    /// Newest first.
+    /// Lists runs, newest first.
     ///
     /// # Errors
     /// `Malformed` page.
@@ -17,7 +17,7 @@ impl App {
         Ok(keyset.page(runs, |run| run.id.to_string()))
     }
 
-    /// One run.
+    /// Reads one run.
     ///
     /// # Errors
     /// `NotFound`.
@@ -25,7 +25,7 @@ impl App {
         Ok(self.ports.store.run(id).await?)
     }
 
-    /// Its goals.
+    /// Reads a run's goals.
     ///
     /// # Errors
     /// `NotFound`.
@@ -33,7 +33,7 @@ impl App {
         Ok(self.ports.store.run_goals(id).await?)
     }
 
-    /// Its trials.
+    /// Reads a run's trials.
     ///
     /// # Errors
     /// `NotFound`.
@@ -42,8 +42,8 @@ impl App {
         Ok(RunTrials { run: run.id, trials: self.ports.store.run_trials(id).await?.trials })
     }
 
-    /// Its convergence: each improvement and where each goal ended, at most `max_points` (2 to 10000) evenly chosen points with the first
-    /// and the last.
+    /// Reads a run's convergence: each improvement and the end of each goal, thinned to at most `max_points` (2 to
+    /// 10000) evenly spaced points including the first and the last.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` number.
@@ -56,10 +56,10 @@ impl App {
         Ok(Convergence { run: id.clone(), points: thin(&all, max_points as usize) })
     }
 
-    /// Its trajectory.
+    /// Reads a run's trajectory.
     ///
     /// # Errors
-    /// `NotFound` run, or the run has no trajectory.
+    /// `NotFound` if there is no such run or it has no trajectory.
     pub async fn run_trajectory(&self, id: &RunId) -> Result<TrajectoryView, AppError> {
         let run = self.get_run(id).await?;
         let Some(trajectory) = run.trajectory else {
@@ -70,7 +70,7 @@ impl App {
     }
 }
 
-/// At most `most` (>= 2) of `all`, evenly chosen, with the first and the last.
+/// At most `most` (>= 2) evenly spaced items of `all`, including the first and the last.
 fn thin<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     if all.len() <= most {
         return all.to_vec();

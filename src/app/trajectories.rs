@@ -1,7 +1,7 @@
 //! Trajectories: checked joint trajectories of runs.
 //!
-//! A trajectory is a function of its run: exports plan it again, which checks it again, and refuse if it came out
-//! otherwise than the one that was shown.
+//! A trajectory is a function of its run. An export plans it again, which also checks it again, and fails if the result
+//! differs from the stored one.
 
 use crate::app::model::{AppError, ErrorKind, Export, TrajectoryId, TrajectoryView, Work};
 use crate::app::{App, chain_text, compute, unknown_format};
@@ -10,10 +10,10 @@ use crate::framework::robot::{Chain, RobotModel};
 use crate::framework::trajectory::{CheckedTrajectory, PlanSpec, export, plan};
 use sha2::{Digest as _, Sha256};
 
-/// From the chain's home pose through `waypoints` (free joints, rad or m), within its limits.
+/// Plans from the chain's home pose through `waypoints` (free joints, rad or m), within the chain's limits.
 ///
 /// # Errors
-/// Why there is no such trajectory.
+/// The reason why there is no such trajectory.
 pub fn plan_through(chain: &Chain, waypoints: &[Vec<f64>]) -> Result<CheckedTrajectory, String> {
     plan(chain, chain.home(), waypoints, &PlanSpec::default()).map_err(|error| error.to_string())
 }
@@ -32,7 +32,7 @@ pub fn digest(trajectory: &CheckedTrajectory) -> String {
 }
 
 impl App {
-    /// One trajectory with its points.
+    /// Reads one trajectory with its points.
     ///
     /// # Errors
     /// `NotFound`.
@@ -40,10 +40,10 @@ impl App {
         Ok(self.ports.store.trajectory(id).await?)
     }
 
-    /// The trajectory as `csv`, `json` or `ros2` (YAML of `trajectory_msgs/JointTrajectory`).
+    /// Exports the trajectory as `csv`, `json` or `ros2` (YAML of `trajectory_msgs/JointTrajectory`).
     ///
     /// # Errors
-    /// `NotFound`; `Malformed` format; `Conflict` when this version plans otherwise than the one that made it.
+    /// `NotFound`; `Malformed` format; `Conflict` if this version plans it differently from the one that created it.
     pub async fn export_trajectory(&self, id: &TrajectoryId, format: &str) -> Result<Export, AppError> {
         if !["csv", "json", "ros2"].contains(&format) {
             return Err(unknown_format(format, "csv, json or ros2"));

@@ -5,7 +5,7 @@ use crate::app::{App, chain_text, check_name};
 use crate::framework::world::{self};
 
 impl App {
-    /// Checks and keeps a world.
+    /// Checks and stores a world.
     ///
     /// # Errors
     /// `Invalid` world.
@@ -19,7 +19,7 @@ impl App {
         Ok(view)
     }
 
-    /// Newest first.
+    /// Lists worlds, newest first.
     ///
     /// # Errors
     /// `Malformed` page.
@@ -29,7 +29,7 @@ impl App {
         Ok(keyset.page(worlds, |world| world.id.to_string()))
     }
 
-    /// One world.
+    /// Reads one world.
     ///
     /// # Errors
     /// `NotFound`.
@@ -37,10 +37,10 @@ impl App {
         Ok(self.ports.store.world(id).await?)
     }
 
-    /// Deletes it unless a job names it.
+    /// Deletes a world unless a job uses it.
     ///
     /// # Errors
-    /// `NotFound`; `Conflict` when jobs name it.
+    /// `NotFound`; `Conflict` if jobs use it.
     pub async fn delete_world(&self, id: &WorldId) -> Result<(), AppError> {
         Ok(self.ports.store.delete_world(id).await?)
     }

@@ -76,7 +76,7 @@ impl RandomStream {
         Self { rng, seed, family }
     }
 
-    /// U(0, 1): 53 random bits, 0 included, 1 not.
+    /// U(0, 1) from 53 random bits; includes 0, excludes 1.
     #[inline]
     pub fn unit(&mut self) -> f64 {
         (self.rng.next_u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
@@ -88,7 +88,7 @@ impl RandomStream {
         low + (high - low) * self.unit()
     }
 
-    /// Standard normal, by Box and Muller.
+    /// Standard normal, by the Box-Muller transform.
     #[inline]
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();

@@ -1,4 +1,4 @@
-//! Who is let in: the holder of the token, as `authorization: Bearer TOKEN` in the metadata.
+//! Authentication: the token as `authorization: Bearer TOKEN` in the metadata.
 
 use super::error::status;
 use crate::app::Access;
@@ -6,7 +6,7 @@ use crate::app::model::{AppError, ErrorKind};
 use tonic::service::Interceptor;
 use tonic::{Request, Status};
 
-/// The interceptor.
+/// Interceptor that rejects calls without the token.
 #[derive(Debug, Clone)]
 pub struct Guard(pub Access);
 

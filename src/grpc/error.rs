@@ -1,4 +1,4 @@
-//! What each kind of error is over gRPC: one exhaustive match, with the details of google.rpc.
+//! gRPC code of each error kind, in one exhaustive match, with the error details of google.rpc.
 
 use crate::app::model::{AppError, ErrorKind};
 use std::collections::HashMap;
@@ -9,7 +9,7 @@ use tonic_types::{ErrorDetails, FieldViolation, StatusExt as _};
 /// `domain` of every ErrorInfo.
 pub const DOMAIN: &str = "cgda";
 
-/// The code of an error kind.
+/// gRPC code of an error kind.
 #[must_use]
 pub fn code(kind: ErrorKind) -> Code {
     match kind {
@@ -25,8 +25,8 @@ pub fn code(kind: ErrorKind) -> Code {
     }
 }
 
-/// The status with ErrorInfo (`reason` is the error's code), BadRequest (`field` is the JSON pointer) and RetryInfo;
-/// what failed underneath is logged here, once.
+/// Status with ErrorInfo (`reason` is the error's code), BadRequest (`field` is the JSON pointer) and RetryInfo. The
+/// underlying error is logged here, once.
 pub fn status(error: AppError) -> Status {
     if let Some(source) = &error.source {
         tracing::error!(error = %source, error.code = error.code, "failed");

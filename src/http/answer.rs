@@ -1,4 +1,4 @@
-//! Answers that are more than a JSON body: created, accepted, a file, a tagged revision.
+//! Responses that are more than a JSON body: created, accepted, a file, a tagged revision.
 
 use super::API;
 use super::extract::Json;
@@ -9,15 +9,15 @@ use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::IntoParams;
 
-/// Which page of a list.
+/// Paging parameters of a list.
 #[derive(Debug, Default, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct PageParameters {
-    /// Most items on the page; 50 when absent.
+    /// Maximum number of items on the page; 50 if absent.
     #[param(minimum = 1, maximum = 200)]
     pub page_size: Option<u32>,
-    /// `next_page_token` of the page before.
+    /// `next_page_token` of the previous page.
     pub page_token: Option<String>,
 }
 
@@ -27,31 +27,31 @@ impl From<PageParameters> for PageQuery {
     }
 }
 
-/// Which format a file shall have.
+/// Format of an export.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct ExportParameters {
-    /// `csv` or `json`; trajectories also `ros2`; experiments `csv`, `full_csv` or `markdown`.
+    /// `csv` or `json`; for trajectories also `ros2`; for experiments `csv`, `full_csv` or `markdown`.
     pub format: String,
 }
 
-/// 201 with the new resource's address.
+/// 201 with the address of the new resource.
 pub fn created<T: Serialize>(collection: &str, id: &str, view: T) -> Response {
     (StatusCode::CREATED, [(LOCATION, format!("{API}/{collection}/{id}"))], Json(view)).into_response()
 }
 
-/// 202 with the address of the job that does it.
+/// 202 with the address of the job that does the work.
 pub fn accepted(job: JobView) -> Response {
     (StatusCode::ACCEPTED, [(LOCATION, format!("{API}/jobs/{}", job.id))], Json(job)).into_response()
 }
 
-/// 200 with the revision as ETag.
+/// 200 with the revision as `ETag`.
 pub fn tagged<T: Serialize>(revision: u64, view: T) -> Response {
     ([(ETAG, format!("\"{revision}\""))], Json(view)).into_response()
 }
 
-/// A file to keep.
+/// A file as a download.
 pub fn file(export: Export) -> Response {
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
     let name: String = export.file_name.chars().map(|c| if plain(c) { c } else { '_' }).collect();

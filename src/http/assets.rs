@@ -1,11 +1,13 @@
-//! The dashboard, embedded: files of `web/dist`, and the one page for every path the dashboard's own router knows.
+//! The embedded dashboard: files of `web/dist`, and its single page for every path that its router handles.
 //!
 //! Architecture Invariants
-//! - Answers GET and HEAD only; never `/api`, never `application/grpc`, and a missing file of a build never with a page.
-//! - The page and its files hold no data and need no token; all data comes from the REST interface.
-//! - Scripts and styles come from this server alone (content security policy); nothing inline, nothing from elsewhere.
+//! - Answers GET and HEAD only; never below `/api`, never `application/grpc`, and a missing asset is never answered
+//!   with the page.
+//! - The page and its assets contain no data and need no token; all data comes from the REST API.
+//! - Scripts and styles come from this server alone (content security policy): nothing inline, nothing external.
 //!
-//! Debug builds read `web/dist` from disk at each request, release builds carry it. Without it a page says how to build.
+//! Debug builds read `web/dist` from disk at each request; release builds embed it. Without it, a page explains how to
+//! build.
 
 use axum::body::Body;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, Response, StatusCode, header};
@@ -18,10 +20,10 @@ struct Dashboard;
 
 const PAGE: &str = "index.html";
 
-/// Files below carry a hash of their content in their name.
+/// Assets below this path have a hash of their content in their name.
 const HASHED: &str = "assets/";
 
-/// Paths that belong to the programming interfaces, with or without something behind them.
+/// First path segments that belong to the APIs, whether or not a route exists there.
 const INTERFACES: &[&str] = &["api", "docs", "openapi.json", "livez", "readyz", "metrics"];
 
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
@@ -35,7 +37,7 @@ const NOT_BUILT: &str = "<!doctype html><html lang=\"en\"><head><meta charset=\"
     <pre>make web            # or: cd web &amp;&amp; npm ci &amp;&amp; npm run build</pre>\
     <p>A debug build then finds it at the next request; a release build has to be built again.</p></body></html>";
 
-/// The dashboard's answer to a request no other route took, or `None` when it is not the dashboard's to answer.
+/// The dashboard's response to a request that no other route took; `None` if it is not the dashboard's to answer.
 #[must_use]
 pub fn respond(method: &Method, path: &str, headers: &HeaderMap) -> Option<Response<Body>> {
     let path = path.trim_start_matches('/');

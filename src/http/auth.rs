@@ -1,9 +1,9 @@
-//! Who is let in: the token as a bearer header, or a cookie that a browser gets in exchange for `?token=`.
+//! Authentication: the token as a bearer header, or a cookie that a browser gets in exchange for `?token=`.
 //!
 //! # Architecture Invariants
-//! - Everything but the paths in `OPEN` is refused without credentials; a new route is protected by being in the router.
-//! - The cookie works only for a host that no foreign name server can point here, and for writes only from our own
-//!   pages: the header is immune to both, because no page of another origin can set it.
+//! - Everything except the paths in `OPEN` requires credentials; a new route is protected by being in the router.
+//! - The cookie works only for a host name that no foreign name server can point here, and for writes only from our own
+//!   pages. The header needs neither check, because no page of another origin can set it.
 
 use super::problem::Problem;
 use crate::app::Access;
@@ -21,16 +21,16 @@ const COOKIE_NAME: &str = "cgda_session";
 const PAGE: &str = "<!doctype html><meta charset=utf-8><title>cgda</title><p>This address needs the token. Open the URL \
                     that <code>cgda serve</code> printed when it started: it ends in <code>?token=…</code>.";
 
-/// What the middleware compares with.
+/// State of the middleware.
 #[derive(Debug, Clone)]
 pub struct Guard {
-    /// The token.
+    /// Checks the token.
     pub access: Access,
-    /// Names of this server beside its numeric addresses and `localhost`.
+    /// Host names of this server besides its numeric addresses and `localhost`.
     pub hosts: Arc<[String]>,
 }
 
-/// The middleware.
+/// Middleware that rejects requests without credentials.
 pub async fn require(State(guard): State<Guard>, request: Request, next: Next) -> Response {
     if OPEN.contains(&request.uri().path()) {
         return next.run(request).await;
@@ -109,8 +109,8 @@ fn host(request: &Request) -> &str {
     header.or_else(|| request.uri().authority().map(axum::http::uri::Authority::as_str)).unwrap_or("")
 }
 
-/// DNS rebinding: a name that someone else controls may resolve to this machine; a numeric address and `localhost`
-/// cannot, and configured names are ours.
+/// Guards against DNS rebinding: a name that someone else controls may resolve to this machine. Numeric addresses and
+/// `localhost` cannot, and configured names are ours.
 fn own_host(guard: &Guard, request: &Request) -> Result<(), AppError> {
     let authority = host(request);
     let name = match authority.rsplit_once(':') {
@@ -128,7 +128,7 @@ fn own_host(guard: &Guard, request: &Request) -> Result<(), AppError> {
     Err(AppError::new(ErrorKind::Forbidden, "unknown_host", message))
 }
 
-/// Cross-site request forgery: a write with a cookie must come from a page of ours.
+/// Guards against cross-site request forgery: a write with a cookie must come from one of our own pages.
 fn own_page(request: &Request) -> Result<(), AppError> {
     let text = |name| request.headers().get(name).and_then(|value| value.to_str().ok());
     let site = text("sec-fetch-site");
@@ -147,7 +147,7 @@ fn query_token(uri: &Uri) -> Option<String> {
     pairs.filter_map(|pair| pair.strip_prefix("token=")).map(str::to_owned).next()
 }
 
-/// The same page without the token; never another host's (`//evil.example`).
+/// The same address without the token, and never on another host (`//evil.example`).
 fn without_token(uri: &Uri) -> String {
     let path = format!("/{}", uri.path().trim_start_matches(['/', '\\']));
     let rest: Vec<&str> = uri.query().unwrap_or("").split('&').filter(|pair| !pair.starts_with("token=")).collect();

@@ -1,7 +1,7 @@
-//! Bodies, read with a bound while they stream in, whatever length they declare.
+//! Reading bodies with a bound while they stream in, whatever length they declare.
 //!
-//! A refused body is read on for a while and thrown away: a client that is still sending would otherwise see its
-//! connection break instead of the answer.
+//! A rejected body is drained for a while: a client that is still sending would otherwise see its connection break
+//! instead of the response.
 
 use crate::app::model::{AppError, ErrorKind};
 use axum::body::{Body, BodyDataStream};
@@ -11,11 +11,11 @@ use axum::http::header::{CONTENT_LENGTH, EXPECT};
 use futures_util::StreamExt as _;
 use std::time::Duration;
 
-/// So much of a refused body is thrown away before the connection may break, and for so long.
+/// Number of bytes of a rejected body to drain, and for how long, before the connection may be closed.
 const DRAINED_BYTES: usize = 32 << 20;
 const DRAINED_FOR: Duration = Duration::from_secs(5);
 
-/// The body, if it has at most `limit` bytes.
+/// Reads the body if it has at most `limit` bytes.
 pub async fn read(request: Request, limit: usize) -> Result<Vec<u8>, AppError> {
     let (parts, body) = request.into_parts();
     if declared(&parts.headers).is_some_and(|length| length > limit as u64) {
@@ -51,7 +51,7 @@ async fn drain(mut stream: BodyDataStream) {
             }
         }
     };
-    // Whether the client finished or ran out of time, it is answered now.
+    // Whether the client has finished or ran out of time, it is answered now.
     let _ = tokio::time::timeout(DRAINED_FOR, rest).await;
 }
 
@@ -59,12 +59,12 @@ fn declared(headers: &HeaderMap) -> Option<u64> {
     headers.get(CONTENT_LENGTH)?.to_str().ok()?.parse().ok()
 }
 
-/// The error of a body that cannot be read to its end.
+/// Error for a body that cannot be read to its end.
 pub fn unreadable(cause: &str) -> AppError {
     AppError::new(ErrorKind::Malformed, "unreadable_body", format!("the body ended early or is malformed: {cause}"))
 }
 
-/// The error of a body above its limit.
+/// Error for a body above its limit.
 pub fn too_large(limit: usize) -> AppError {
     let message = format!("the body is larger than the limit of {limit} bytes: send less, or raise the limit");
     AppError::new(ErrorKind::TooLarge, "body_too_large", message)

@@ -1,6 +1,6 @@
-//! The outermost layer: gives a request its id, catches panics, turns every error into a problem, logs one line.
+//! The outermost layer: assigns the request id, catches panics, turns every error into a problem, logs one line.
 //!
-//! The query is never logged: the first one a browser sends carries the token.
+//! The query is never logged, because a browser's first request carries the token in it.
 
 use super::error::of_status;
 use super::problem::{CONTENT_TYPE_PROBLEM, Problem};
@@ -15,7 +15,7 @@ use std::time::Instant;
 const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 const MAX_REQUEST_ID: usize = 64;
 
-/// The middleware.
+/// Middleware around every request.
 pub async fn wrap(request: Request, next: Next) -> Response {
     let started = Instant::now();
     let id = request_id(&request);
@@ -38,12 +38,12 @@ pub async fn wrap(request: Request, next: Next) -> Response {
     response
 }
 
-/// A panic is an internal error like any other; the panic hook has written its place to the log.
+/// Turns a panic into an internal error; the panic hook has already logged its location.
 pub fn panicked(_: Box<dyn Any + Send>) -> Response {
     Problem::from(AppError::internal("a handler panicked")).into_response()
 }
 
-/// The caller's id when it is short and plain, else a new one.
+/// The client's request id if it is short and plain, else a new one.
 fn request_id(request: &Request) -> String {
     let plain = |text: &&str| {
         !text.is_empty()
@@ -74,7 +74,7 @@ fn as_problem(mut response: Response, id: &str, grpc: bool) -> Response {
     rendered
 }
 
-/// Whether an error answer is already what its reader expects: gRPC's own, a problem, or a page for people.
+/// Whether an error response already has the form its reader expects: gRPC's own, a problem, or a page for people.
 fn is_own(response: &Response) -> bool {
     let content_type = response.headers().get(CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or("");
     ["application/grpc", CONTENT_TYPE_PROBLEM, "text/html"].iter().any(|own| content_type.starts_with(own))

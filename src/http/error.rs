@@ -1,10 +1,10 @@
-//! What each kind of error is over HTTP: one exhaustive match.
+//! HTTP status of each error kind, in one exhaustive match.
 
 use super::problem::Problem;
 use crate::app::model::{AppError, ErrorKind};
 use axum::http::StatusCode;
 
-/// The status of an error kind.
+/// HTTP status of an error kind.
 #[must_use]
 pub fn status(kind: ErrorKind) -> StatusCode {
     match kind {
@@ -30,7 +30,7 @@ impl From<AppError> for Problem {
     }
 }
 
-/// The problem of a status that no use-case answers but HTTP itself does (routing, content negotiation, time-outs).
+/// Problem for a status that HTTP itself produces rather than a use case: routing, content negotiation, timeouts.
 #[must_use]
 pub fn of_status(code: StatusCode) -> Problem {
     let (kind, name, message) = match code {

@@ -1,10 +1,10 @@
-//! `/jobs/{id}/events`: the events of a job as server-sent events, stored ones first, then live.
+//! `/jobs/{id}/events`: the events of a job as server-sent events, stored ones first, then live ones.
 //!
 //! # Architecture Invariants
-//! - The id of an event is its durable sequence number: `Last-Event-ID` (or `?after_seq=`) goes on without a gap.
-//! - The stream ends after the event of a final state; asked to go on after it, the answer is 204, which tells a
-//!   browser's `EventSource` not to come back.
-//! - A reader that takes nothing for [`EVICT_AFTER`] loses its connection, not memory of the service.
+//! - The id of an event is its durable sequence number: `Last-Event-ID` (or `?after_seq=`) resumes without a gap.
+//! - The stream ends after the event of a final state; a request to continue after it gets 204, which tells a browser's
+//!   `EventSource` not to reconnect.
+//! - A reader that takes nothing for [`EVICT_AFTER`] loses its connection rather than fill the service's memory.
 
 use super::error::status;
 use super::extract::{Path, Query};
@@ -28,16 +28,16 @@ const PING_EVERY: Duration = Duration::from_secs(15);
 const EVICT_AFTER: Duration = Duration::from_secs(30);
 const QUEUE: usize = 64;
 
-/// Where to begin.
+/// Start position of the stream.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct EventsParameters {
-    /// Events with a greater sequence number only; `Last-Event-ID` comes first. 0 or absent: all.
+    /// Only events with a greater sequence number; `Last-Event-ID` takes precedence. 0 or absent: all.
     after_seq: Option<u64>,
 }
 
-/// Every event of a job as server-sent events: `id` is `seq`, `event` is `type`, `data` the event as JSON.
+/// Streams every event of a job as server-sent events: `id` is `seq`, `event` is `type`, `data` the event as JSON.
 #[utoipa::path(get, path = "/jobs/{id}/events", operation_id = "watchJob", tag = "jobs",
     params(("id" = JobId, Path), EventsParameters,
         ("Last-Event-ID" = Option<u64>, Header, description = "As `after_seq`; browsers send it by themselves.")),
@@ -68,7 +68,7 @@ fn last_event_id(headers: &HeaderMap) -> Result<Option<u64>, AppError> {
     seq.map(Some).ok_or_else(|| AppError::new(ErrorKind::Malformed, "invalid_last_event_id", message))
 }
 
-/// Moves events into a bounded queue until the source ends or the reader takes nothing for too long.
+/// Moves events into a bounded queue until the source ends or the reader stalls for too long.
 fn pump(
     mut events: BoxStream<'static, Result<JobEvent, AppError>>,
     patience: Duration,

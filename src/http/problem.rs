@@ -1,8 +1,9 @@
-//! RFC 9457 problem details: the one shape every error answer over HTTP has.
+//! RFC 9457 problem details: the form of every error response over HTTP.
 //!
 //! # Architecture Invariants
-//! - A handler or extractor returns a [`Problem`]; the envelope (`envelope.rs`) adds the request id and writes the body.
-//! - What failed underneath (`source`) is logged there, once, and never shown.
+//! - A handler or extractor returns a [`Problem`]; the envelope (`envelope.rs`) adds the request id and writes the
+//!   body.
+//! - The underlying error (`source`) is logged there, once, and never shown.
 
 use crate::app::model::{AppError, FieldError};
 use axum::http::StatusCode;
@@ -14,37 +15,37 @@ use utoipa::ToSchema;
 /// Media type of a problem.
 pub const CONTENT_TYPE_PROBLEM: &str = "application/problem+json";
 
-/// An error answer (RFC 9457).
+/// An error response (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct ProblemDetails {
-    /// `urn:cgda:problem:` and the code.
+    /// `urn:cgda:problem:` followed by the code.
     #[serde(rename = "type")]
     pub kind: String,
-    /// The status' phrase.
+    /// Reason phrase of the status.
     pub title: String,
-    /// The HTTP status again.
+    /// HTTP status, repeated.
     pub status: u16,
     /// Stable machine-readable code, `snake_case`.
     pub code: String,
-    /// What is wrong and what to do, with the numbers.
+    /// Description and remedy, with the numbers.
     pub detail: String,
-    /// Names this request in the service's log.
+    /// Identifies this request in the service's log.
     pub request_id: String,
-    /// The wrong places of the request, if it is at fault.
+    /// Invalid places in the request; empty if the request is not at fault.
     pub errors: Vec<FieldError>,
 }
 
-/// A status and the error behind it, on its way to the envelope.
+/// A status and its error, on their way to the envelope.
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// HTTP status.
     pub status: StatusCode,
-    /// Code, sentence, places and cause.
+    /// The error with its code, message, places and cause.
     pub error: AppError,
 }
 
 impl Problem {
-    /// The details, as sent.
+    /// The details as sent to the client.
     #[must_use]
     pub fn details(&self, request_id: &str) -> ProblemDetails {
         ProblemDetails {
@@ -58,7 +59,7 @@ impl Problem {
         }
     }
 
-    /// The complete answer.
+    /// Renders the complete response.
     #[must_use]
     pub fn render(&self, request_id: &str) -> Response {
         let body = serde_json::to_vec(&self.details(request_id)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `/recognitions`: which action an observation looks like, or none of them.
+//! `/recognitions`: which action an observation shows, or none.
 
 use super::extract::Json;
 use super::problem::Problem;
@@ -6,7 +6,7 @@ use crate::app::App;
 use crate::app::model::{RecognitionView, RecognizeRequest};
 use axum::extract::State;
 
-/// Ranks actions by their discrepancy to an observation.
+/// Ranks actions by their discrepancy from an observation.
 #[utoipa::path(post, path = "/recognitions", operation_id = "recognize", tag = "recognitions",
     request_body = RecognizeRequest,
     responses((status = 200, description = "Candidates, best first.", body = RecognitionView)))]

@@ -1,4 +1,4 @@
-//! `/runs`: one finished repetition of an execution job each.
+//! `/runs`: finished repetitions of execution jobs.
 
 use super::extract::{Json, Path, Query};
 use super::problem::Problem;
@@ -10,18 +10,18 @@ use axum::extract::State;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-/// Which runs.
+/// Filter and page of runs.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct RunsParameters {
-    /// Of this job only.
+    /// Only runs of this job.
     #[param(value_type = Option<String>)]
     job: Option<JobId>,
-    /// Most items on the page; 50 when absent.
+    /// Maximum number of items on the page; 50 if absent.
     #[param(minimum = 1, maximum = 200)]
     page_size: Option<u32>,
-    /// `next_page_token` of the page before.
+    /// `next_page_token` of the previous page.
     page_token: Option<String>,
 }
 
@@ -43,7 +43,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<R
     Ok(Json(app.get_run(&id).await?))
 }
 
-/// The goals of a run, asked for and reached.
+/// The goals of a run, with target and observation.
 #[utoipa::path(get, path = "/runs/{id}/goals", operation_id = "getRunGoals", tag = "runs",
     params(("id" = RunId, Path)),
     responses((status = 200, description = "One entry a goal.", body = RunGoals)))]
@@ -51,7 +51,7 @@ pub async fn goals(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json
     Ok(Json(app.run_goals(&id).await?))
 }
 
-/// Every trial of a run whose method remembers them; none for other methods.
+/// All trials of a run; empty unless its method records them.
 #[utoipa::path(get, path = "/runs/{id}/trials", operation_id = "getRunTrials", tag = "runs",
     params(("id" = RunId, Path)),
     responses((status = 200, description = "In the order they were made.", body = RunTrials)))]
@@ -59,17 +59,17 @@ pub async fn trials(State(app): State<App>, Path(id): Path<RunId>) -> Result<Jso
     Ok(Json(app.run_trials(&id).await?))
 }
 
-/// How many points.
+/// Number of points of a convergence curve.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct ConvergenceParameters {
-    /// Most points.
+    /// Maximum number of points.
     #[param(minimum = 2)]
     max_points: Option<u32>,
 }
 
-/// Discrepancy against evaluations.
+/// Discrepancy over evaluations.
 #[utoipa::path(get, path = "/runs/{id}/convergence", operation_id = "getRunConvergence", tag = "runs",
     params(("id" = RunId, Path), ConvergenceParameters),
     responses((status = 200, description = "Points in the order of evaluations.", body = Convergence)))]

@@ -1,19 +1,20 @@
-//! `/jobs/{id}:pause`: custom methods as the Google AIPs write them.
+//! `/jobs/{id}:pause`: custom methods as in the Google AIPs.
 //!
 //! The router matches whole segments only, so `…/SEGMENT:verb` is rewritten to `…/SEGMENT/@verb` before routing and
-//! registered in that form; documents and clients see the colon only. A path that comes with `/@` itself is not found.
+//! registered in that form; documentation and clients only see the colon. A path that itself contains `/@` is not
+//! found.
 
 use axum::extract::Request;
 use axum::http::Uri;
 use axum::http::uri::PathAndQuery;
 
-/// Where a documented path lives in the router.
+/// The router's form of a documented path.
 #[must_use]
 pub fn internal(documented: &str) -> String {
     documented.replacen(':', "/@", 1)
 }
 
-/// Rewrites a request under the API.
+/// Rewrites the path of a request below the API.
 #[must_use]
 pub fn rewrite(mut request: Request) -> Request {
     if let Some(uri) = rewritten(request.uri()) {

@@ -1,6 +1,6 @@
-//! A demonstration as bytes for the store: a header in JSON, then all numbers as little-endian IEEE 754.
+//! Binary encoding of a demonstration for the store: a header in JSON, then all numbers as little-endian IEEE 754.
 //!
-//! `u32` length of the header, the header, then for each stream its times and its values row by row.
+//! Layout: `u32` length of the header, the header, then for each stream its times and its values row by row.
 
 use crate::framework::Feature;
 use crate::framework::demonstration::{Demonstration, Stream, StreamError};
@@ -19,29 +19,29 @@ struct StreamHeader {
     samples: usize,
 }
 
-/// Bytes that are no demonstration.
+/// The bytes are not an encoded demonstration.
 #[derive(Debug, thiserror::Error)]
 pub enum CodecError {
-    /// Fewer or more bytes than the header tells.
+    /// The number of bytes differs from what the header says.
     #[error("{found} bytes where {expected} are needed")]
     Length {
-        /// Bytes there.
+        /// Number of bytes found.
         found: usize,
-        /// Bytes needed.
+        /// Number of bytes expected.
         expected: usize,
     },
-    /// The header is not the JSON it should be.
+    /// The header is not valid JSON of the expected form.
     #[error("the header cannot be read")]
     Header(#[from] serde_json::Error),
-    /// The numbers make no stream.
+    /// The numbers do not form a stream.
     #[error(transparent)]
     Stream(#[from] StreamError),
 }
 
-/// Encodes; [`decode`] gives back the same bits.
+/// Encodes a demonstration; [`decode`] restores the same bits.
 ///
 /// # Errors
-/// [`CodecError::Length`] when the header is 4 GiB long.
+/// [`CodecError::Length`] if the header reaches 4 GiB.
 pub fn encode(demonstration: &Demonstration) -> Result<Vec<u8>, CodecError> {
     let streams = demonstration.streams.iter();
     let header = serde_json::to_vec(&Header {
@@ -66,10 +66,10 @@ pub fn encode(demonstration: &Demonstration) -> Result<Vec<u8>, CodecError> {
     Ok(bytes)
 }
 
-/// Decodes what [`encode`] wrote.
+/// Decodes the output of [`encode`].
 ///
 /// # Errors
-/// [`CodecError`] says what does not fit.
+/// [`CodecError`] if the bytes are malformed.
 pub fn decode(bytes: &[u8]) -> Result<Demonstration, CodecError> {
     let short = |expected| CodecError::Length { found: bytes.len(), expected };
     let (length, rest) = bytes.split_first_chunk::<4>().ok_or_else(|| short(4))?;

@@ -1,4 +1,4 @@
-//! Demonstrations: upload with findings, look, exclude, decimate, export.
+//! Demonstrations: upload with findings, read, exclude, decimate, export.
 
 mod codec;
 mod series;
@@ -17,10 +17,10 @@ use crate::framework::demonstration::{
 use sha2::{Digest as _, Sha256};
 
 impl App {
-    /// Reads and keeps an upload.
+    /// Parses and stores an upload.
     ///
     /// # Errors
-    /// `Invalid` with one detail a finding that makes it unusable; `TooLarge`.
+    /// `Invalid` with one detail per finding that makes it unusable; `TooLarge`.
     pub async fn upload_demonstration(&self, upload: UploadDemonstration) -> Result<DemonstrationView, AppError> {
         if let Some(name) = &upload.name {
             check_name("/name", name)?;
@@ -42,7 +42,7 @@ impl App {
         Ok(view)
     }
 
-    /// Newest first.
+    /// Lists demonstrations, newest first.
     ///
     /// # Errors
     /// `Malformed` page.
@@ -52,7 +52,7 @@ impl App {
         Ok(keyset.page(found, |demonstration| demonstration.id.to_string()))
     }
 
-    /// One demonstration.
+    /// Reads one demonstration.
     ///
     /// # Errors
     /// `NotFound`.
@@ -60,10 +60,10 @@ impl App {
         Ok(self.ports.store.demonstration(id).await?)
     }
 
-    /// Renames or excludes.
+    /// Renames or excludes a demonstration.
     ///
     /// # Errors
-    /// `NotFound`; `Precondition` when `if_match` is not the present revision.
+    /// `NotFound`; `Precondition` if `if_match` is not the current revision.
     pub async fn patch_demonstration(
         &self,
         id: &DemonstrationId,
@@ -79,7 +79,7 @@ impl App {
         Ok(self.ports.store.patch_demonstration(id, patch, if_match).await?)
     }
 
-    /// Deletes it; actions made from it keep their goals.
+    /// Deletes a demonstration; actions generalized from it keep their goals.
     ///
     /// # Errors
     /// `NotFound`; `Precondition`.
@@ -87,7 +87,7 @@ impl App {
         Ok(self.ports.store.delete_demonstration(id, if_match).await?)
     }
 
-    /// Samples, decimated so that no minimum and no maximum is lost.
+    /// Reads samples, decimated without losing any minimum or maximum.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` query.
@@ -101,7 +101,7 @@ impl App {
         Ok(SamplesView { demonstration: id.clone(), series })
     }
 
-    /// What the reader found at upload.
+    /// Reads the findings made at upload.
     ///
     /// # Errors
     /// `NotFound`.
@@ -109,7 +109,7 @@ impl App {
         Ok(self.ports.store.demonstration_report(id).await?)
     }
 
-    /// The samples as `csv` (one stream only) or `json`.
+    /// Exports the samples as `csv` (one stream only) or `json`.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` format; `Conflict` for `csv` of several streams.
@@ -129,7 +129,7 @@ impl App {
         }
     }
 
-    /// A demonstration with its samples.
+    /// Loads a demonstration with its samples.
     ///
     /// # Errors
     /// `NotFound`.
@@ -155,7 +155,7 @@ fn read(upload: UploadDemonstration) -> Result<Read, AppError> {
     Ok((demonstration, findings, hex::encode(content.finalize()), samples))
 }
 
-/// Where in the uploaded data a finding is, as a JSON pointer: `/streams/NAME/rows/ROW/columns/NAME`.
+/// Place of a finding in the uploaded data, as a JSON pointer: `/streams/NAME/rows/ROW/columns/NAME`.
 #[must_use]
 pub fn pointer(finding: &Finding) -> String {
     let places = [
@@ -232,7 +232,7 @@ fn csv(demonstration: &Demonstration) -> Result<Vec<u8>, AppError> {
     writer.into_inner().map_err(|error| AppError::internal(error.to_string()))
 }
 
-/// The reader takes `name [unit]` apart again.
+/// Column header in the form that the reader parses: `name [unit]`.
 fn header(feature: &crate::framework::Feature) -> String {
     if feature.unit.is_empty() { feature.name.clone() } else { format!("{} [{}]", feature.name, feature.unit) }
 }

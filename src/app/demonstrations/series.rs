@@ -1,4 +1,4 @@
-//! Samples for a plot: a window of time, thinned so that no peak is lost.
+//! Samples for plotting: a window of time, thinned without losing peaks.
 
 use crate::app::model::{AppError, SamplesQuery, Series};
 use crate::app::out_of_bounds;
@@ -6,10 +6,10 @@ use crate::framework::demonstration::{Demonstration, Stream};
 
 const DEFAULT_POINTS: u32 = 1000;
 
-/// One series for each feature asked for.
+/// One series per requested feature.
 ///
 /// # Errors
-/// `Malformed` for bounds that are none and features that are not there.
+/// `Malformed` for invalid bounds and unknown features.
 pub(super) fn series(demonstration: &Demonstration, query: &SamplesQuery) -> Result<Vec<Series>, AppError> {
     let max_points = query.max_points.unwrap_or(DEFAULT_POINTS);
     if !(4..=20_000).contains(&max_points) {
@@ -46,7 +46,7 @@ pub(super) fn series(demonstration: &Demonstration, query: &SamplesQuery) -> Res
     Ok(all)
 }
 
-/// At most `most` samples of `window`: the smallest and the largest of each of `most / 2` bins, in the order of time.
+/// At most `most` samples of `window`, in order of time: the minimum and the maximum of each of `most / 2` bins.
 fn thin(stream: &Stream, column: usize, window: std::ops::Range<usize>, most: usize) -> Vec<usize> {
     if window.len() <= most {
         return window.collect();

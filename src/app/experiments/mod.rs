@@ -1,8 +1,8 @@
-//! Experiments: many runs of many settings as one durable job, their table at any time.
+//! Experiments: many runs of many settings as one durable job, with a table available at any time.
 //!
 //! # Architecture Invariants
-//! - Stored is what [`crate::framework::experiment::Experiment`] is: the plan, resolved when it was submitted, and one
-//!   row a finished run. Every table, comparison and file is computed from these, so it can never be stale.
+//! - The stored data are those of [`crate::framework::experiment::Experiment`]: the plan, resolved at submission, and
+//!   one row per finished run. Every table, comparison and export is computed from these and therefore never stale.
 
 mod plan;
 
@@ -14,10 +14,10 @@ use crate::app::{App, compute, out_of_bounds, unknown_format};
 use crate::framework::experiment::{Experiment, Quantity, RunId, RunRow, export};
 
 impl App {
-    /// Submits an experiment; it is in the job's result at once.
+    /// Submits an experiment; the job's result names it immediately.
     ///
     /// # Errors
-    /// As [`App::create_job`].
+    /// As for [`App::create_job`].
     pub async fn create_experiment(
         &self,
         request: ExperimentRequest,
@@ -26,7 +26,7 @@ impl App {
         self.create_job(CreateJob::Experiment(request), idempotency_key).await
     }
 
-    /// Newest first.
+    /// Lists experiments, newest first.
     ///
     /// # Errors
     /// `Malformed` page.
@@ -36,7 +36,7 @@ impl App {
         Ok(keyset.page(experiments, |experiment| experiment.id.to_string()))
     }
 
-    /// One experiment.
+    /// Reads one experiment.
     ///
     /// # Errors
     /// `NotFound`.
@@ -44,7 +44,7 @@ impl App {
         Ok(self.ports.store.experiment(id).await?)
     }
 
-    /// Statistics of each cell over the runs that ended.
+    /// Statistics of each cell over the finished runs.
     ///
     /// # Errors
     /// `NotFound`.
@@ -60,7 +60,7 @@ impl App {
         compute(table).await
     }
 
-    /// Its finished runs by cell, then repetition; of one cell only, if asked.
+    /// Lists the finished runs, ordered by cell, then repetition; of one cell if `filter` names one.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` page.
@@ -78,10 +78,10 @@ impl App {
         Ok(keyset.page(rows, |row| format!("{}.{}", row.id.cell, row.id.repetition)))
     }
 
-    /// Cell `second` against cell `first`, seed by seed, by Wilcoxon's signed rank test.
+    /// Compares cell `second` with cell `first`, seed by seed, with Wilcoxon's signed-rank test.
     ///
     /// # Errors
-    /// `NotFound`; `Malformed` cell; `Conflict` while no seed counts in both.
+    /// `NotFound`; `Malformed` cell; `Conflict` until some seed has valid runs in both.
     pub async fn compare_experiment(
         &self,
         id: &ExperimentId,
@@ -109,7 +109,7 @@ impl App {
         Ok(ExperimentComparison { experiment: id.clone(), first, second, quantity, sentence, comparison })
     }
 
-    /// The table as `csv` (the columns and digits of `cgda reproduce --csv`), `full_csv` (every statistic) or
+    /// Exports the table as `csv` (columns and digits of `cgda reproduce --csv`), `full_csv` (every statistic) or
     /// `markdown`.
     ///
     /// # Errors
@@ -134,7 +134,7 @@ impl App {
     }
 }
 
-/// The run a page token names.
+/// The run encoded in a page token.
 fn position(text: &str) -> Result<RunId, AppError> {
     let numbers =
         text.split_once('.').and_then(|(cell, repetition)| Some((cell.parse().ok()?, repetition.parse().ok()?)));

@@ -1,4 +1,4 @@
-//! What a job will cost: first repetitions are run for a short while, and what they took is scaled up.
+//! Cost estimates: simulates first repetitions for a short time and extrapolates.
 
 use super::resolved::Resolved;
 use crate::app::chain_text;
@@ -16,7 +16,7 @@ struct Timed {
     took_s: f64,
 }
 
-/// The cost of a resolved job, if a trial on a robot takes `robot_trial_s`.
+/// Cost of a resolved job if a trial on a robot takes `robot_trial_s` seconds.
 pub(super) fn estimate(resolved: &Resolved, robot_trial_s: f64, clock: &dyn Clock) -> Result<CostEstimate, AppError> {
     match (&resolved.work, &resolved.experiment) {
         (Work::Execution(work), _) => {

@@ -18,7 +18,7 @@ pub(super) fn look_up<T>(
     }
 }
 
-/// A reference to nothing is a wrong place of the request; every other error is one.
+/// Turns a missing reference into an invalid place of the request; passes every other error on.
 pub(super) fn missing(pointer: impl Into<String>, error: StoreError) -> Result<FieldError, AppError> {
     match error {
         StoreError::NotFound { .. } => Ok(FieldError::new(pointer, "not_found", error.to_string())),

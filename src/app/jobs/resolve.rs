@@ -1,5 +1,5 @@
-//! From a request to all a job needs: references are looked up, what was left open is filled in, and the whole is
-//! checked as the worker will check it. The same code answers a dry run.
+//! From a request to a self-contained job: looks up references, fills in defaults, and checks everything as the worker
+//! will. A dry run uses the same code.
 
 use super::earlier::setting;
 use super::estimate::estimate;
@@ -17,19 +17,19 @@ use crate::framework::generalization::Goals;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Most repetitions of one job.
+/// Maximum number of repetitions of one job.
 const MAX_REPETITIONS: u32 = 1000;
-/// Longest trial on a robot: a day.
+/// Longest accepted duration of a trial on a robot: one day.
 const MAX_TRIAL_S: f64 = 86_400.0;
-/// Most demonstrations of one action.
+/// Maximum number of demonstrations of one action.
 const MAX_DEMONSTRATIONS: usize = 1000;
 
 impl App {
-    /// Checks a job as [`App::create_job`] would, creates nothing and estimates its cost; a trial on a robot is taken to
-    /// last `robot_trial_s` seconds (15 when absent).
+    /// Checks a job as [`App::create_job`] would, without creating it, and estimates its cost. A trial on a robot is
+    /// assumed to take `robot_trial_s` seconds (15 if absent).
     ///
     /// # Errors
-    /// Only when the service is at fault: what is wrong with the request is in the answer.
+    /// Only if the service is at fault; problems of the request are part of the answer.
     pub async fn validate_job(&self, request: CreateJob, robot_trial_s: Option<f64>) -> Result<Validation, AppError> {
         match self.preview(request, robot_trial_s.unwrap_or(ROBOT_TRIAL_S)).await {
             Ok((estimate, chosen)) => {
@@ -138,7 +138,7 @@ impl App {
             execution: request.execution.clone(),
             earlier: Vec::new(),
         };
-        // Only the service tells why a method was chosen.
+        // Only the service records the reason for a method.
         problem.execution.chosen = None;
         problem.choose();
         request.execution = problem.execution.clone();
@@ -167,7 +167,7 @@ impl App {
     }
 }
 
-/// What is wrong with the numbers and names of a request, before anything is looked up.
+/// Checks the numbers and names of a request before anything is looked up.
 fn bounds(request: &ExecutionRequest) -> Vec<FieldError> {
     let mut errors = Vec::new();
     let mut wrong = |pointer: &str, detail: String| errors.push(FieldError::new(pointer, "out_of_range", detail));

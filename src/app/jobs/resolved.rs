@@ -4,14 +4,14 @@ use crate::app::model::{CreateJob, ExperimentId, JobProgress, Work};
 use crate::app::ports::Usage;
 use crate::framework::experiment::Plan;
 
-/// A job that can be submitted.
+/// A job that is ready to be submitted.
 pub(super) struct Resolved {
     pub name: String,
     pub request: CreateJob,
     pub work: Work,
     pub uses: Usage,
     pub progress: JobProgress,
-    /// The experiment to keep with it.
+    /// The experiment to store with it.
     pub experiment: Option<(ExperimentId, Plan)>,
 }
 
@@ -34,7 +34,7 @@ impl Resolved {
         Self { name, request, work, uses, progress, experiment: None }
     }
 
-    /// What was resolved before.
+    /// A job that was resolved earlier.
     pub(super) fn again(name: String, request: CreateJob, work: Work) -> Self {
         Self::new(name, request, work)
     }

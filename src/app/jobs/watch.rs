@@ -1,4 +1,4 @@
-//! Following a job: what is stored first, then what comes.
+//! Following a job: stored events first, then live ones.
 //!
 //! A follower reads the store in pages and is woken by hints; it holds at most one page, however slow its reader is.
 
@@ -13,9 +13,9 @@ use std::time::Duration;
 use tokio::sync::broadcast::{Receiver, error::RecvError};
 use tokio::time::timeout;
 
-/// Longest that a lost hint can delay a follower.
+/// Maximum delay caused by a lost hint.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
-/// Longest bounded wait.
+/// Maximum time of a bounded wait.
 const MAX_WAIT: Duration = Duration::from_mins(1);
 
 struct Follower {
@@ -47,39 +47,39 @@ impl Follower {
             self.end = page.end;
             self.page = page.events.into();
             if self.page.is_empty() && !self.end {
-                // A hint that does not come is made up for by looking again.
+                // A missing hint is compensated by looking again.
                 let _ = timeout(LOOK_AGAIN, woken(&mut self.wakes, &self.id)).await;
             }
         }
     }
 }
 
-/// Returns when `id` may have changed.
+/// Returns when the job `id` may have changed.
 async fn woken(wakes: &mut Receiver<Wake>, id: &JobId) {
     loop {
         match wakes.recv().await {
             Ok(Wake::Job(job)) if job == *id => return,
             Ok(_) => {}
             Err(RecvError::Lagged(_)) => return,
-            // Nobody publishes any more: only the clock is left.
+            // Nothing publishes any more; only the timeout remains.
             Err(RecvError::Closed) => std::future::pending().await,
         }
     }
 }
 
 impl App {
-    /// Every event after `after_seq`, first those stored, then as they come; ends after the event of a final state.
+    /// Streams every event after `after_seq`: stored ones first, then live ones; ends after the event of a final state.
     ///
-    /// A position that is not known gives one `resync` event; the stream goes on after the job's last event.
+    /// An unknown position gives one `resync` event; the stream then continues after the job's last event.
     ///
     /// # Errors
-    /// `NotFound`. The stream itself ends with an error when the store fails.
+    /// `NotFound`. The stream itself ends with an error if the store fails.
     pub async fn watch_job(
         &self,
         id: &JobId,
         after_seq: u64,
     ) -> Result<BoxStream<'static, Result<JobEvent, AppError>>, AppError> {
-        // Before the first look, so that nothing between the two is missed.
+        // Subscribes before the first read, so that no event is missed in between.
         let wakes = self.ports.events.subscribe();
         self.get_job(id).await?;
         let follower =
@@ -94,7 +94,8 @@ impl App {
         Ok(events.boxed())
     }
 
-    /// The job as soon as it has an event after `after_seq` or is final, at the latest after `limit` (at most 60 s).
+    /// Returns the job as soon as it has an event after `after_seq` or is final, at the latest after `limit` (at most
+    /// 60 s).
     ///
     /// # Errors
     /// `NotFound`.

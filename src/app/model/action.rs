@@ -11,11 +11,11 @@ use utoipa::ToSchema;
 /// One immutable version of an action, without its goals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ActionView {
-    /// Its id.
+    /// Id of this version.
     pub id: ActionId,
     /// Display name; versions of one action share it.
     pub name: String,
-    /// 1 for the first of that name, then counted up.
+    /// Version number: 1 for the first of that name, then counting up.
     pub version: u32,
     /// Features in column order.
     pub features: Vec<Feature>,
@@ -23,42 +23,42 @@ pub struct ActionView {
     pub goals: u32,
     /// Mean duration of the demonstrations, seconds.
     pub mean_duration_s: f64,
-    /// Shortest time between goals that was asked for, seconds.
+    /// T_min, the requested minimum time between goals, seconds.
     pub t_min_s: f64,
     /// How samples were weighted.
     pub weighting: Weighting,
     /// Default metric for recognition.
     pub metric: Metric,
-    /// What it was made of.
+    /// Demonstrations it was generalized from.
     pub demonstrations: Vec<DemonstrationId>,
-    /// The job that made it.
+    /// Job that created it.
     pub job: JobId,
-    /// When it was made.
+    /// Creation time.
     pub created_at: Timestamp,
 }
 
-/// The matrix X.
+/// The matrix X of an action: n goals of m features.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ActionGoals {
-    /// The action.
+    /// Id of the action.
     pub action: ActionId,
     /// Features in column order.
     pub features: Vec<Feature>,
-    /// One row a goal, one value a feature.
+    /// n rows, one per goal, with one value per feature.
     pub goals: Vec<Vec<f64>>,
     /// Standard deviation of each value over the demonstrations, feature's unit.
     pub spread: Vec<Vec<f64>>,
 }
 
-/// The curve through the goals.
+/// Points of the curve through an action's goals.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Interpolation {
-    /// The action.
+    /// Id of the action.
     pub action: ActionId,
     /// Features in column order.
     pub features: Vec<Feature>,
-    /// Where each row lies between the first goal (0) and the last (1).
+    /// Position of each row between the first goal (0) and the last (1).
     pub x: Vec<f64>,
-    /// One row a point, one value a feature.
+    /// One row per point, with one value per feature.
     pub values: Vec<Vec<f64>>,
 }

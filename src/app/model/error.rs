@@ -1,34 +1,34 @@
-//! The one error vocabulary of the service: a small kind that each edge maps exhaustively to its own status, a stable
-//! code, and the places in the request that are wrong.
+//! The service's one error vocabulary: a small kind that each edge maps exhaustively to its own status, a stable code,
+//! and the invalid places in the request.
 
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use utoipa::ToSchema;
 
-/// What went wrong, as far as a caller can act on it.
+/// Kind of an error, by what a caller can do about it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum ErrorKind {
-    /// The request cannot be read: a token, a header or an id that is none.
+    /// The request cannot be parsed, for example a token, a header or an id in the wrong form.
     Malformed,
-    /// The request can be read and is wrong; the details say where.
+    /// The request can be parsed but is invalid; the details say where.
     Invalid,
     /// No such resource.
     NotFound,
-    /// The resource's present state does not allow it.
+    /// Not allowed in the resource's current state.
     Conflict,
-    /// `If-Match` does not name the present revision.
+    /// `If-Match` does not name the current revision.
     Precondition,
-    /// More bytes, samples or rows than the limit.
+    /// More bytes, samples or rows than allowed.
     TooLarge,
     /// No valid credentials.
     Unauthenticated,
-    /// Valid credentials that do not allow it.
+    /// Valid credentials without the required permission.
     Forbidden,
-    /// A quota or rate is used up: retry later.
+    /// A quota or rate is exhausted: retry later.
     Exhausted,
-    /// The disk of the data directory is full: reading goes on, nothing is written until space is freed.
+    /// The disk of the data directory is full: reads still work, writes do not until space is freed.
     StorageFull,
-    /// The service cannot answer now: retry later.
+    /// Temporarily unavailable: retry later.
     Unavailable,
     /// The service is at fault.
     Internal,
@@ -51,46 +51,46 @@ impl ErrorKind {
         Self::Internal,
     ];
 
-    /// Whether the same request may do later, without a change by its sender.
+    /// Whether the same request may succeed later, unchanged.
     #[must_use]
     pub fn may_pass(self) -> bool {
         matches!(self, Self::Exhausted | Self::StorageFull | Self::Unavailable)
     }
 }
 
-/// One wrong place in a request.
+/// One invalid place in a request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct FieldError {
     /// JSON pointer into the request's body, or into the uploaded data: `/streams/NAME/rows/ROW/COLUMN`.
     pub pointer: String,
     /// Stable code.
     pub code: String,
-    /// What is wrong and what to do, with the numbers.
+    /// Description and remedy, with the numbers.
     pub detail: String,
 }
 
 impl FieldError {
-    /// A wrong place.
+    /// Creates a detail for one place.
     pub fn new(pointer: impl Into<String>, code: impl Into<String>, detail: impl Into<String>) -> Self {
         Self { pointer: pointer.into(), code: code.into(), detail: detail.into() }
     }
 }
 
-/// Why a use-case did not do what was asked.
+/// The reason why a use case failed.
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("{message}")]
 pub struct AppError {
-    /// What a caller can do about it.
+    /// Kind, by what the caller can do about it.
     pub kind: ErrorKind,
     /// Stable machine-readable code, `snake_case`.
     pub code: &'static str,
     /// One sentence, lowercase, with the numbers.
     pub message: String,
-    /// The wrong places, if the request is at fault.
+    /// Invalid places in the request; empty if it is not at fault.
     pub details: Vec<FieldError>,
-    /// When to try again, where the kind [may pass](ErrorKind::may_pass).
+    /// Delay before a retry, seconds; only for kinds that [may pass](ErrorKind::may_pass).
     pub retry_after_s: Option<u32>,
-    /// What failed underneath; logged once at the edge, never shown to the caller.
+    /// Underlying error; logged once at the edge, never shown to the caller.
     #[source]
     pub source: Option<Arc<dyn std::error::Error + Send + Sync>>,
 }
@@ -101,11 +101,11 @@ impl AppError {
         Self { kind, code, message: message.into(), details: Vec::new(), retry_after_s: None, source: None }
     }
 
-    /// The request's body is wrong at these places.
+    /// The request's body is invalid at these places.
     #[must_use]
     pub fn invalid(details: Vec<FieldError>) -> Self {
         let message = match details.as_slice() {
-            // The empty pointer is the whole body.
+            // The empty pointer denotes the whole body.
             [only] if only.pointer.is_empty() => only.detail.clone(),
             [only] => format!("{}: {}", only.pointer, only.detail),
             many => format!("{} places of the request are wrong", many.len()),
@@ -113,7 +113,7 @@ impl AppError {
         Self { details, ..Self::new(ErrorKind::Invalid, "invalid_request", message) }
     }
 
-    /// The request's body is wrong at one place.
+    /// The request's body is invalid at one place.
     pub fn field(pointer: impl Into<String>, code: &'static str, detail: impl Into<String>) -> Self {
         Self::invalid(vec![FieldError::new(pointer, code, detail)])
     }
@@ -123,7 +123,7 @@ impl AppError {
         Self::new(ErrorKind::NotFound, "not_found", format!("there is no {kind} {id}"))
     }
 
-    /// The service is at fault; `source` is for the log.
+    /// The service is at fault; `source` goes to the log only.
     pub fn internal(source: impl Into<Box<dyn std::error::Error + Send + Sync>>) -> Self {
         let source: Box<dyn std::error::Error + Send + Sync> = source.into();
         Self {
@@ -132,7 +132,7 @@ impl AppError {
         }
     }
 
-    /// The service cannot answer for now.
+    /// The service is temporarily unavailable.
     pub fn unavailable(code: &'static str, message: impl Into<String>) -> Self {
         Self { retry_after_s: Some(1), ..Self::new(ErrorKind::Unavailable, code, message) }
     }

@@ -1,4 +1,4 @@
-//! Requests for experiments, and what is shown of them.
+//! Requests for and views of experiments.
 
 use super::id::{ExperimentId, JobId};
 use super::time::Timestamp;
@@ -7,27 +7,27 @@ use crate::framework::job::State;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// What to run: tables of the paper, single cells, a matrix, or several of these. Every cell runs the seeds
-/// `seed..seed + repetitions`, so that cells can be compared pair by pair.
+/// Request for an experiment: tables of the paper, individual cells, a matrix, or a combination. Every cell runs the
+/// seeds `seed..seed + repetitions`, so that cells can be compared in pairs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentRequest {
-    /// Display name; made of what is run when absent.
+    /// Display name; derived from the cells if absent.
     #[serde(default)]
     pub name: Option<String>,
-    /// Seed of each cell's first repetition, below 2^53; drawn and recorded when absent.
+    /// Seed of each cell's first repetition, below 2^53; drawn and recorded if absent.
     #[serde(default)]
     pub seed: Option<u64>,
-    /// Runs of each cell (at least 1).
+    /// Number of runs per cell (at least 1).
     #[serde(default = "one")]
     pub repetitions: u32,
     /// Cells of the paper: one table, or all.
     #[serde(default)]
     pub paper_table: Option<PaperTable>,
-    /// Cells one by one, after those of the paper.
+    /// Individual cells, after those of the paper.
     #[serde(default)]
     pub cells: Vec<CellSpec>,
-    /// Every preset with every method and every setting, after the cells.
+    /// Every preset with every method and every setting, after the individual cells.
     #[serde(default)]
     pub matrix: Option<MatrixSpec>,
 }
@@ -40,9 +40,9 @@ fn one() -> u32 {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(untagged)]
 pub enum PaperTable {
-    /// 1 to 6.
+    /// Number of the table, 1 to 6.
     Number(u8),
-    /// All six.
+    /// All six tables.
     Every(EveryTable),
 }
 
@@ -54,68 +54,68 @@ pub enum EveryTable {
     All,
 }
 
-/// An experiment and how far it is.
+/// An experiment with its progress.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ExperimentView {
-    /// Its id.
+    /// Id of the experiment.
     pub id: ExperimentId,
     /// Display name.
     pub name: String,
-    /// The job that runs it.
+    /// Job that runs it.
     pub job: JobId,
-    /// Where that job stands.
+    /// State of that job.
     pub state: State,
     /// Seed of each cell's first repetition.
     pub seed: u64,
-    /// Runs of each cell.
+    /// Number of runs per cell.
     pub repetitions: u32,
     /// Number of cells.
     pub cells: u32,
-    /// Cells x repetitions.
+    /// Number of runs: cells x repetitions.
     pub runs: u64,
-    /// Runs that ended and are stored.
+    /// Number of finished and stored runs.
     pub finished_runs: u64,
-    /// When it was submitted.
+    /// Time of submission.
     pub created_at: Timestamp,
 }
 
-/// The table so far: one row a cell, over the runs that ended.
+/// The table so far: one row per cell, over the finished runs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ExperimentTable {
-    /// The experiment.
+    /// Id of the experiment.
     pub experiment: ExperimentId,
-    /// Cells x repetitions.
+    /// Number of runs: cells x repetitions.
     pub runs: u64,
-    /// Runs the table is made of.
+    /// Number of runs in the table.
     pub finished_runs: u64,
-    /// In the plan's order; a cell's index is its place here.
+    /// Cells in the plan's order; a cell's index is its position here.
     pub cells: Vec<CellResult>,
 }
 
-/// Two cells of an experiment, seed by seed.
+/// Comparison of two cells of an experiment, seed by seed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ExperimentComparison {
-    /// The experiment.
+    /// Id of the experiment.
     pub experiment: ExperimentId,
     /// Index of the first cell.
     pub first: u32,
     /// Index of the second cell.
     pub second: u32,
-    /// What was compared.
+    /// Quantity compared.
     pub quantity: Quantity,
-    /// The result in one sentence.
+    /// Result in one sentence.
     pub sentence: String,
-    /// Second minus first, over the seeds that count in both.
+    /// Second minus first, over the seeds with valid runs in both.
     pub comparison: PairedComparison,
 }
 
-/// Which rows of an experiment.
+/// Filter for rows of an experiment.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RowFilter {
-    /// Of this cell only.
+    /// Only rows of this cell.
     pub cell: Option<u32>,
-    /// After this run only.
+    /// Only rows after this run.
     pub after: Option<RunId>,
-    /// At most so many; all when absent.
+    /// Maximum number of rows; all if `None`.
     pub limit: Option<u32>,
 }

@@ -1,18 +1,18 @@
 //! A file to send.
 
-/// A file to send.
+/// A file to download.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Export {
     /// Media type.
     pub content_type: &'static str,
     /// Suggested name, safe for every file system.
     pub file_name: String,
-    /// Content.
+    /// Raw content of the file.
     pub bytes: Vec<u8>,
 }
 
 impl Export {
-    /// A file named after `name`, of which only letters, digits, `-` and `_` are kept.
+    /// A file named after `name`, reduced to letters, digits, `-` and `_`.
     #[must_use]
     pub fn new(content_type: &'static str, name: &str, extension: &str, bytes: Vec<u8>) -> Self {
         let safe: String = name

@@ -1,12 +1,13 @@
-//! Typed resource ids: a prefix that tells the kind, then 32 hexadecimal digits of a version 7 UUID.
+//! Typed resource ids: a prefix for the kind, then the 32 hexadecimal digits of a version 7 UUID.
 //!
-//! An id is compared as text; being a version 7 UUID, later ids sort after earlier ones, which keyset paging uses.
+//! Ids are compared as text. Because they are version 7 UUIDs, later ids sort after earlier ones, which keyset paging
+//! relies on.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use uuid::Uuid;
 
-/// Text that is no id of the kind asked for.
+/// The text is not an id of the requested kind.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{text:?} is not {kind} id: expected `{prefix}_` and 32 hexadecimal digits")]
 pub struct IdError {
@@ -29,13 +30,13 @@ macro_rules! ids {
         pub struct $name(String);
 
         impl $name {
-            /// The id made of `uuid`.
+            /// The id for `uuid`.
             #[must_use]
             pub fn from_uuid(uuid: Uuid) -> Self {
                 Self(format!(concat!($prefix, "_{}"), uuid.simple()))
             }
 
-            /// The id as text.
+            /// Text form of the id.
             #[must_use]
             pub fn as_str(&self) -> &str {
                 &self.0
@@ -84,21 +85,21 @@ macro_rules! ids {
 }
 
 ids! {
-    /// Names a demonstration.
+    /// Identifies a demonstration.
     DemonstrationId = "dem", "a demonstration";
-    /// Names one immutable version of an action.
+    /// Identifies one immutable version of an action.
     ActionId = "act", "an action";
-    /// Names one immutable version of a robot.
+    /// Identifies one immutable version of a robot.
     RobotId = "rob", "a robot";
-    /// Names a world.
+    /// Identifies a world.
     WorldId = "wld", "a world";
-    /// Names a job.
+    /// Identifies a job.
     JobId = "job", "a job";
-    /// Names a run: one repetition of an execution job.
+    /// Identifies a run: one repetition of an execution job.
     RunId = "run", "a run";
-    /// Names an experiment.
+    /// Identifies an experiment.
     ExperimentId = "exp", "an experiment";
-    /// Names a trajectory.
+    /// Identifies a trajectory.
     TrajectoryId = "trj", "a trajectory";
 }
 

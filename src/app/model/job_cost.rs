@@ -5,30 +5,30 @@ use crate::framework::execution::Chosen;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// The answer of a dry run.
+/// Result of a dry run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Validation {
     /// Whether the job would be accepted.
     pub valid: bool,
-    /// What is wrong with it.
+    /// Errors in the request; empty if it is valid.
     pub errors: Vec<FieldError>,
-    /// What it would cost, if it is valid.
+    /// Estimated cost; absent if the job is invalid.
     pub estimate: Option<CostEstimate>,
-    /// Which method `auto` stands for, and why, if the job asks for it.
+    /// Method chosen for `auto`, with the reason; absent if the job names a method.
     pub chosen: Option<Chosen>,
 }
 
-/// What a job will cost, roughly.
+/// Estimated cost of a job.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct CostEstimate {
-    /// Evaluations of all repetitions.
+    /// Number of evaluations over all repetitions.
     pub evaluations: u64,
-    /// Time on this machine in simulation, seconds.
+    /// Duration in simulation on this machine, seconds.
     pub simulated_s: f64,
-    /// Time if each evaluation were a trial on a robot, seconds.
+    /// Duration if each evaluation were a trial on a robot, seconds.
     pub robot_s: f64,
     /// The cost in words, for example `about 16 evaluations; at 15 s each, 4 minutes of robot time`.
     pub text: String,
-    /// How the estimate was made.
+    /// Description of how the estimate was made.
     pub basis: String,
 }

@@ -8,11 +8,11 @@ use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A new job; `kind` picks one.
+/// Request for a new job; `kind` selects the variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum CreateJob {
-    /// Makes an action of demonstrations.
+    /// Generalizes demonstrations into an action.
     Generalization(GeneralizationRequest),
     /// Executes an action on a robot.
     Execution(Box<ExecutionRequest>),
@@ -20,20 +20,20 @@ pub enum CreateJob {
     Experiment(ExperimentRequest),
 }
 
-/// Which demonstrations become an action, and how.
+/// Request for a generalization.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GeneralizationRequest {
-    /// Name of the action; a taken name makes a new version of it.
+    /// Name of the action; an existing name makes a new version of it.
     pub name: String,
-    /// At least one, each once.
+    /// Ids of one or more demonstrations, each once.
     pub demonstrations: Vec<DemonstrationId>,
-    /// Shortest time between goals, seconds (> 0).
+    /// T_min, the minimum time between goals, seconds (> 0).
     pub t_min_s: f64,
     /// How samples are weighted.
     #[serde(default)]
     pub weighting: Weighting,
-    /// Features by name, in the order they shall have; all when absent.
+    /// Names of the features to keep, in order; all if absent.
     #[serde(default)]
     pub features: Option<Vec<String>>,
     /// Default metric for recognition.
@@ -41,46 +41,46 @@ pub struct GeneralizationRequest {
     pub metric: Metric,
 }
 
-/// Which action is executed on which robot in which world, and how.
+/// Request for an execution: action, robot, world and method.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExecutionRequest {
-    /// Display name; made of the names of action and robot when absent.
+    /// Display name; derived from the names of action and robot if absent.
     #[serde(default)]
     pub name: Option<String>,
-    /// The action.
+    /// Id of the action.
     pub action: ActionId,
-    /// The robot.
+    /// Id of the robot.
     pub robot: RobotId,
-    /// The world.
+    /// Id of the world.
     pub world: WorldId,
-    /// Method, metric, when a goal ends.
+    /// Method, metric and stopping criteria.
     pub execution: ExecutionSpec,
-    /// Seed of the first repetition, below 2^53; drawn and recorded when absent. Repetition r uses seed + r.
+    /// Seed of the first repetition, below 2^53; drawn and recorded if absent. Repetition r uses seed + r.
     #[serde(default)]
     pub seed: Option<u64>,
     /// Number of runs, 1 to 1000.
     #[serde(default = "one")]
     pub repetitions: u32,
-    /// Slows the job down to about so many evaluations a second, to be watched.
+    /// Slows the job down to about this many evaluations per second, so that it can be watched.
     #[serde(default)]
     pub max_evaluations_per_s: Option<f64>,
-    /// Runs on the same robot, with the same tool, world and features, whose trials the method `model` begins with,
-    /// newest first. When absent they are found, and told here; an empty list is none.
+    /// Runs on the same robot, with the same tool, world and features, whose trials the method `model` starts from,
+    /// newest first. If absent, they are looked up and recorded here; an empty list means none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub earlier_runs: Option<Vec<EarlierRun>>,
 }
 
-/// A run whose trials another one begins with.
+/// A run whose trials another run starts from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EarlierRun {
-    /// The run.
+    /// Id of the run.
     pub run: RunId,
-    /// Its job; filled in.
+    /// Its job; filled in by the service.
     #[serde(default)]
     pub job: Option<JobId>,
-    /// How many of its trials are used, the latest ones; filled in.
+    /// Number of its (latest) trials used; filled in by the service.
     #[serde(default)]
     pub trials: Option<u32>,
 }

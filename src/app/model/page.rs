@@ -1,48 +1,49 @@
-//! Keyset paging: a page ends with an opaque token that names the last item seen and the query it belongs to.
+//! Keyset paging: a page ends with an opaque token that encodes the last item seen and the query it belongs to.
 
 use super::error::{AppError, ErrorKind};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use utoipa::ToSchema;
 
-/// Items on a page when the caller names no number.
+/// Number of items on a page by default.
 pub const DEFAULT_PAGE_SIZE: u32 = 50;
-/// Most items on a page.
+/// Maximum number of items on a page.
 pub const MAX_PAGE_SIZE: u32 = 200;
 
-/// Which page of a list.
+/// Page of a list, as requested.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct PageQuery {
-    /// At most so many items (1 to 200; 50 when absent).
+    /// Maximum number of items, 1 to 200; 50 if absent.
     pub page_size: Option<u32>,
-    /// The `next_page_token` of the page before; absent or empty is the first page.
+    /// The `next_page_token` of the previous page; absent or empty for the first page.
     pub page_token: Option<String>,
 }
 
 /// One page of a list, newest first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Page<T> {
-    /// The items.
+    /// Items of this page.
     pub items: Vec<T>,
     /// Pass it as `page_token` for the next page; empty at the end.
     pub next_page_token: String,
 }
 
-/// A checked page query, for the store.
+/// A validated page query, for the store.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Keyset {
-    /// Items with an id before this one only.
+    /// Only items whose id sorts before this one.
     pub before_id: Option<String>,
-    /// At most so many items.
+    /// Maximum number of items.
     pub limit: u32,
     filter_hash: String,
 }
 
 impl Keyset {
-    /// Checks `query`; `filter` is the rest of the list call in any stable text form: a token is refused with another.
+    /// Validates `query`. `filter` encodes the other parameters of the list call in a stable text form, because a token
+    /// is rejected together with other filters.
     ///
     /// # Errors
-    /// `Malformed` for a size outside 1..=200 or a token that was not given for this list.
+    /// `Malformed` for a size outside 1..=200 or a token of another list.
     pub fn new(query: &PageQuery, filter: &str) -> Result<Self, AppError> {
         let limit = query.page_size.unwrap_or(DEFAULT_PAGE_SIZE);
         if limit == 0 || limit > MAX_PAGE_SIZE {
@@ -60,7 +61,7 @@ impl Keyset {
         Ok(Self { before_id, limit, filter_hash })
     }
 
-    /// The page of `items`, which the store read with a limit of one more than asked for.
+    /// Builds the page from `items`, which the store read with a limit one above the requested size.
     pub fn page<T>(&self, mut items: Vec<T>, id: impl Fn(&T) -> String) -> Page<T> {
         let limit = self.limit as usize;
         let more = items.len() > limit;
@@ -74,7 +75,7 @@ impl Keyset {
 }
 
 impl<T> Page<T> {
-    /// The same page of other items.
+    /// Converts the items of the page.
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> Page<U> {
         Page { items: self.items.into_iter().map(f).collect(), next_page_token: self.next_page_token }
     }

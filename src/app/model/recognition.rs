@@ -6,68 +6,68 @@ use crate::framework::recognition::{FeatureDiscrepancy, Metric};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// What was observed: a demonstration of the service, or rows.
+/// The observation: a stored demonstration, or rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Observed {
-    /// A demonstration that was uploaded.
+    /// A demonstration that was uploaded before.
     Demonstration {
-        /// Its id.
+        /// Id of the demonstration.
         demonstration: DemonstrationId,
     },
-    /// Rows, in the order of time.
+    /// Rows in order of time.
     Rows {
         /// Features in column order.
         features: Vec<Feature>,
-        /// One row a sample, one value a feature.
+        /// One row per sample, with one value per feature.
         rows: Vec<Vec<f64>>,
     },
 }
 
-/// A question of recognition.
+/// Request for a recognition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecognizeRequest {
-    /// What was observed.
+    /// The observation.
     pub observed: Observed,
-    /// Candidate actions; when absent or empty, the latest version of every action, at most 200.
+    /// Candidate actions; if absent or empty, the latest version of every action, at most 200.
     #[serde(default)]
     pub candidates: Vec<ActionId>,
-    /// How the discrepancy is measured.
+    /// Metric of the discrepancy.
     #[serde(default)]
     pub metric: Metric,
-    /// Largest relative discrepancy of a recognised action (no unit); 0.3 when absent.
+    /// Largest relative discrepancy (dimensionless) of a recognized action; 0.3 if absent.
     #[serde(default)]
     pub threshold: Option<f64>,
 }
 
-/// The answer, best candidate first.
+/// Result of a recognition, best candidate first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RecognitionView {
-    /// The recognised action; absent is *unknown*.
+    /// The recognized action; absent if *unknown*.
     pub recognized: Option<ActionId>,
-    /// The metric in use.
+    /// Metric in use.
     pub metric: Metric,
-    /// The threshold in use, relative discrepancy.
+    /// Threshold in use, relative discrepancy.
     pub threshold: f64,
-    /// Every comparable candidate, best first.
+    /// All comparable candidates, best first.
     pub candidates: Vec<RecognitionCandidate>,
     /// Candidates whose features were not observed.
     pub incomparable: Vec<IncomparableCandidate>,
 }
 
-/// One candidate.
+/// One candidate with its discrepancy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RecognitionCandidate {
-    /// The action.
+    /// Id of the action.
     pub action: ActionId,
-    /// Its name.
+    /// Name shown next to the marker.
     pub name: String,
     /// Discrepancy, features' unit.
     pub discrepancy: f64,
-    /// Discrepancy over the number of matched pairs and the size of the action, no unit.
+    /// Mean distance of matched rows and goals divided by the action's size, dimensionless.
     pub relative_discrepancy: f64,
-    /// Whether it is within the threshold.
+    /// Whether the relative discrepancy is within the threshold.
     pub within_threshold: bool,
     /// The discrepancy split by feature.
     pub per_feature: Vec<FeatureDiscrepancy>,
@@ -75,15 +75,15 @@ pub struct RecognitionCandidate {
     pub path: Vec<[u32; 2]>,
 }
 
-/// A candidate that cannot be compared with what was observed.
+/// A candidate that cannot be compared with the observation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct IncomparableCandidate {
-    /// The action.
+    /// Id of the action.
     pub action: ActionId,
-    /// Its name.
+    /// Name shown next to the marker.
     pub name: String,
-    /// The feature that is missing or in another unit.
+    /// Feature that is missing or has another unit.
     pub feature: Feature,
-    /// Unit in which it was observed; absent where it was not observed.
+    /// Unit in the observation; absent if the feature was not observed.
     pub observed_unit: Option<String>,
 }

@@ -6,7 +6,7 @@ use crate::framework::robot::{ChainSummary, RobotSpec, RobotSummary};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A new robot, or a new version of one when the name is taken.
+/// Request for a new robot, or for a new version if the name exists.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CreateRobot {
@@ -22,20 +22,20 @@ pub struct CreateRobot {
 /// One immutable version of a robot, without its URDF.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RobotView {
-    /// Its id.
+    /// Id of this version.
     pub id: RobotId,
     /// Display name; versions of one robot share it.
     pub name: String,
-    /// 1 for the first of that name, then counted up.
+    /// Version number: 1 for the first of that name, then counting up.
     pub version: u32,
-    /// Chain, free joints, tool, as they were given.
+    /// Chain, free joints, tool, as requested.
     pub spec: RobotSpec,
-    /// The part that moves.
+    /// The chain that moves.
     pub chain: ChainSummary,
-    /// The whole robot.
+    /// Summary of the whole robot.
     pub summary: RobotSummary,
     /// SHA-256 of the URDF, hexadecimal.
     pub urdf_sha256: String,
-    /// When it was created.
+    /// Creation time.
     pub created_at: Timestamp,
 }

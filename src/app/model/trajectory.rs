@@ -7,34 +7,34 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
-/// A time-parameterised joint trajectory that passed its check.
+/// A time-parameterised joint trajectory that passed all checks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct TrajectoryView {
-    /// Its id.
+    /// Id of the trajectory.
     pub id: TrajectoryId,
-    /// The run it was made of.
+    /// Run it was planned for.
     pub run: RunId,
-    /// The job.
+    /// Id of the job.
     pub job: JobId,
-    /// The robot it fits.
+    /// Robot it is valid for.
     pub robot: RobotId,
     /// Free joints, in the order of `positions`.
     pub joint_names: Vec<String>,
-    /// Joints of the chain that hold one value throughout, rad or m.
+    /// Joints of the chain held at a constant value throughout, rad or m.
     pub fixed_joints: BTreeMap<String, f64>,
     /// Duration, seconds.
     pub duration_s: f64,
-    /// Points; the first at 0 s.
+    /// Points in order of time; the first is at 0 s.
     pub points: Vec<TrajectoryPoint>,
-    /// Times at which the goals are reached, seconds.
+    /// Times at which the goals are reached, seconds from the start.
     pub goal_times_s: Vec<f64>,
     /// The most used limit of each kind.
     pub tightest: Vec<Tightest>,
-    /// What was assumed in planning.
+    /// Assumptions made in planning.
     pub notes: Vec<String>,
     /// SHA-256 of the points' bits, hexadecimal.
     pub sha256: String,
-    /// When it was made.
+    /// Creation time.
     pub created_at: Timestamp,
 }
 
@@ -43,10 +43,10 @@ pub struct TrajectoryView {
 pub struct TrajectoryPoint {
     /// Time from the start, seconds.
     pub t_s: f64,
-    /// rad or m.
+    /// Joint positions, rad or m.
     pub positions: Vec<f64>,
-    /// rad/s or m/s.
+    /// Joint velocities, rad/s or m/s.
     pub velocities: Vec<f64>,
-    /// rad/s^2 or m/s^2.
+    /// Joint accelerations, rad/s^2 or m/s^2.
     pub accelerations: Vec<f64>,
 }

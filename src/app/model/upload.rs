@@ -9,43 +9,43 @@ use utoipa::ToSchema;
 /// One uploaded file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UploadFile {
-    /// File name as the client gave it; it names the stream, never a path.
+    /// File name from the client; it names the stream and is never used as a path.
     pub file_name: String,
-    /// Content.
+    /// Raw content of the file.
     pub bytes: Vec<u8>,
 }
 
 /// An upload: one file, or several that were recorded together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct UploadDemonstration {
-    /// Display name; the data's own name or the first file's when absent.
+    /// Display name; if absent, the name in the data or else that of the first file.
     pub name: Option<String>,
-    /// At least one file.
+    /// One or more files.
     pub files: Vec<UploadFile>,
-    /// How to read them.
+    /// Options for reading them.
     pub options: UploadOptions,
 }
 
-/// How uploaded files are read; every field is optional.
+/// Options for reading uploaded files; all are optional.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct UploadOptions {
-    /// The form of the files; found from their content when absent.
+    /// Format of the files; detected from their content if absent.
     pub format: Option<Format>,
-    /// What to do about clocks that disagree.
+    /// Treatment of clocks that disagree.
     pub clock_policy: ClockPolicy,
-    /// Header of the time column; `time`, `time_s`, `t` or `timestamp` when absent.
+    /// Header of the time column; if absent, `time`, `time_s`, `t` and `timestamp` are recognized.
     pub time_column: Option<String>,
-    /// Features of files without header, in column order after id and time.
+    /// Features of files without a header, in the order of the columns after id and time.
     pub features: Vec<Feature>,
-    /// As `features`, by stream name.
+    /// Like `features`, by stream name.
     pub stream_features: BTreeMap<String, Vec<Feature>>,
-    /// Units by feature name; they win over those of the header.
+    /// Units by feature name; they override those of the header.
     pub units: BTreeMap<String, String>,
 }
 
 impl UploadOptions {
-    /// With the service's limits.
+    /// Converts to the reader's options, with the service's limits.
     #[must_use]
     pub fn read_options(self, name: Option<String>) -> ReadOptions {
         ReadOptions {

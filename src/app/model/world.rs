@@ -7,27 +7,27 @@ use crate::framework::world::WorldSpec;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A new world.
+/// Request for a new world.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CreateWorld {
     /// Display name.
     pub name: String,
-    /// What it is.
+    /// Kind and parameters.
     pub spec: WorldSpec,
 }
 
-/// A world; it never changes.
+/// A world; immutable.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct WorldView {
-    /// Its id.
+    /// Id of the world.
     pub id: WorldId,
     /// Display name.
     pub name: String,
-    /// What it is.
+    /// Kind and parameters.
     pub spec: WorldSpec,
-    /// What is observed in it.
+    /// Features observed in it.
     pub features: Vec<Feature>,
-    /// When it was created.
+    /// Creation time.
     pub created_at: Timestamp,
 }

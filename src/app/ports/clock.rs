@@ -1,13 +1,13 @@
-//! Time.
+//! The Clock port.
 
 use crate::app::model::Timestamp;
 use std::time::Duration;
 
-/// Time of the day, for showing, and time that passes, for measuring; no lease and no deadline depends on the former.
+/// Wall-clock time for display and monotonic time for measuring; no lease or deadline depends on the wall clock.
 pub trait Clock: Send + Sync {
-    /// Now.
+    /// Wall-clock time.
     fn now(&self) -> Timestamp;
 
-    /// Time since some fixed moment; it never jumps.
+    /// Time since a fixed moment; monotonic.
     fn elapsed(&self) -> Duration;
 }

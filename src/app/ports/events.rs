@@ -1,34 +1,35 @@
-//! Wake-ups: a hint that something was committed. Whoever is woken reads the store; a lost hint delays, never loses.
+//! Wake-ups: hints that something was committed. A receiver then reads the store; a lost hint causes a delay, never a
+//! loss.
 
 use crate::app::model::JobId;
 use tokio::sync::broadcast;
 
-/// What happened.
+/// Content of a wake-up.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Wake {
-    /// The job has new events.
+    /// The job may have new events.
     Job(JobId),
-    /// A job waits for a worker.
+    /// A job is waiting for a worker.
     Queued,
 }
 
-/// Carries wake-ups between the tasks of the service.
+/// Delivers wake-ups between the tasks of the service.
 pub trait Events: Send + Sync {
-    /// Wakes whoever listens.
+    /// Wakes all subscribers.
     fn publish(&self, wake: Wake);
 
-    /// From now on.
+    /// Receives wake-ups from now on.
     fn subscribe(&self) -> broadcast::Receiver<Wake>;
 }
 
-/// Wake-ups inside this process.
+/// Wake-ups within this process.
 #[derive(Debug, Clone)]
 pub struct LocalEvents {
     sender: broadcast::Sender<Wake>,
 }
 
 impl LocalEvents {
-    /// Listeners that are more than 1024 wake-ups behind are told so and read the store.
+    /// Creates the channel. Receivers more than 1024 wake-ups behind are notified of that and read the store.
     #[must_use]
     pub fn new() -> Self {
         Self { sender: broadcast::Sender::new(1024) }
@@ -43,7 +44,7 @@ impl Default for LocalEvents {
 
 impl Events for LocalEvents {
     fn publish(&self, wake: Wake) {
-        // Without a listener there is nobody to wake.
+        // Without receivers there is nobody to wake.
         let _ = self.sender.send(wake);
     }
 

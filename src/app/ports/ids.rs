@@ -1,8 +1,8 @@
-//! Ids, seeds and secrets: the only place where the service draws at random.
+//! Ids, seeds and secrets: the service's only source of randomness.
 
 use uuid::Uuid;
 
-/// Seeds are below this bound, so that every JSON reader keeps them exactly.
+/// Exclusive upper bound of seeds, so that every JSON reader represents them exactly.
 pub const SEED_BOUND: u64 = 1 << 53;
 
 /// Source of ids, seeds and secrets.
@@ -10,9 +10,9 @@ pub trait Ids: Send + Sync {
     /// A new id; later ones sort after earlier ones.
     fn uuid(&self) -> Uuid;
 
-    /// A seed for a job that names none, below 2^53.
+    /// A seed below 2^53 for a job that does not specify one.
     fn seed(&self) -> u64;
 
-    /// 128 random bits, hexadecimal.
+    /// A secret of 128 random bits, hexadecimal.
     fn token(&self) -> String;
 }

@@ -1,35 +1,35 @@
-//! Why constraints cannot be used: every error carries the numbers and says what would do.
+//! Reasons why constraints are invalid; every error carries the numbers and a remedy.
 
-/// A constraint that cannot be built.
+/// A constraint is invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConstraintError {
-    /// NaN or infinity in a description.
+    /// A description contains NaN or infinity.
     #[error("{field} holds {value}: every number of a constraint must be finite")]
     NotFinite {
         /// Field of the description.
         field: &'static str,
-        /// The value given.
+        /// Value given.
         value: f64,
     },
-    /// A size or limit that is not above 0.
+    /// A size or limit is not positive.
     #[error("{field} is {value}, it must be above 0")]
     NotPositive {
         /// Field of the description.
         field: &'static str,
-        /// The value given.
+        /// Value given.
         value: f64,
     },
-    /// A number outside the range its method allows.
+    /// A number is out of range.
     #[error("{field} is {value}: {expected}")]
     OutOfRange {
         /// Field of the description.
         field: &'static str,
-        /// The value given.
+        /// Value given.
         value: f64,
-        /// The range.
+        /// Allowed range.
         expected: &'static str,
     },
-    /// A box whose sides crossed.
+    /// The sides of a box cross.
     #[error("the box has no inside: {axis} goes from {lower} m to {upper} m after dilatation")]
     EmptyBox {
         /// `x`, `y` or `z`.
@@ -39,60 +39,60 @@ pub enum ConstraintError {
         /// Upper side after dilatation, m.
         upper: f64,
     },
-    /// A half-space without normal.
+    /// A half-space has no normal.
     #[error("normal {normal:?} has no direction: give a non-zero vector that points outwards")]
     NoDirection {
-        /// The normal given.
+        /// Normal vector given.
         normal: [f64; 3],
     },
-    /// A polyhedron without faces.
+    /// A polyhedron has no faces.
     #[error("a polyhedron needs at least one half-space")]
     NoHalfSpace,
-    /// Too few or too many points.
+    /// A hull has too few or too many points.
     #[error("a hull of {found} points: 4 to {limit} are allowed")]
     HullPoints {
-        /// Points given.
+        /// Number of points given.
         found: usize,
-        /// Most points allowed.
+        /// Maximum number of points.
         limit: usize,
     },
-    /// Points in one plane.
+    /// All points of a hull lie in one plane.
     #[error("the hull of these {points} points has no volume: add a point outside their plane")]
     FlatHull {
-        /// Points given.
+        /// Number of points given.
         points: usize,
     },
-    /// A joint that the chain does not move.
+    /// A constraint names a joint that the chain does not move.
     #[error("constraint names joint {joint:?}, which is not free here: the free joints are {free:?}")]
     UnknownJoint {
-        /// The name given.
+        /// Name given.
         joint: String,
-        /// The free joints.
+        /// Names of the free joints.
         free: Vec<String>,
     },
-    /// A pose of another chain.
+    /// A pose has the wrong number of joints.
     #[error("{field} holds {found} joint values, the chain has {expected}")]
     PoseLength {
         /// Field of the description.
         field: &'static str,
-        /// Values given.
+        /// Number of values given.
         found: usize,
-        /// Free joints of the chain.
+        /// Number of free joints of the chain.
         expected: usize,
     },
-    /// The constrained link is not on the robot.
+    /// The constrained link is not part of the robot.
     #[error("the constrained point cannot be reached: {0}")]
     Point(#[from] crate::robot::ChainError),
-    /// Nothing could be appended: the strategy gives an infeasible candidate no discrepancy.
+    /// Appending is impossible, because the strategy gives infeasible candidates no discrepancy.
     #[error(
         "on_infeasible \"append\" needs handling \"penalty\": {strategy} gives an infeasible candidate no discrepancy, so \
          that none is the least bad; take a penalty, or on_infeasible \"stop\""
     )]
     NothingToAppend {
-        /// The strategy.
+        /// Name of the strategy.
         strategy: &'static str,
     },
-    /// Unexecuted winners could violate a constraint when their goal ends.
+    /// Winners that were never executed could violate a constraint.
     #[error("unexecuted_may_win cannot be combined with constraints: a winner that was never judged would be executed")]
     UnexecutedWinner,
 }

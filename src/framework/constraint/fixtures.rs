@@ -1,4 +1,4 @@
-//! The paper's arm and its constraint chain, for this module's tests.
+//! The paper's arm and its constraint chain, for the tests of this module.
 
 use super::spec::{ChainJoint, PointSpec};
 use crate::robot::{Chain, RobotModel, RobotSpec};
@@ -20,7 +20,7 @@ pub(super) fn arm() -> Arm {
     Arm { model, robot, chain }
 }
 
-/// The chain the published runs judged their boxes by.
+/// The chain on which the published runs checked their boxes.
 pub(super) fn constraint_point() -> PointSpec {
     let joint = |joint: &str, offset_m: [f64; 3], axis: [f64; 3]| ChainJoint { joint: joint.into(), offset_m, axis };
     PointSpec::Chain {

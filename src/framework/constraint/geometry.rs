@@ -1,9 +1,10 @@
-//! Convex regions: an axis-aligned box with dilatation, a sphere, a polyhedron by half-spaces, the hull of points.
+//! Convex regions: an axis-aligned box with dilatation, a sphere, a polyhedron given by half-spaces, the hull of
+//! points.
 //!
 //! A region is open: a point on its boundary is not inside, as in the published runs, and not safely outside either.
-//! Box, hull and polyhedron are all kept as half-spaces `n . p < d` with unit n; `max_k(n_k . p - d_k)` is the distance
-//! to the farthest violated plane in metres (a lower bound of the distance to the region, equal to it across a face),
-//! and inside, negative, the distance to the nearest face.
+//! Box, hull and polyhedron are stored as half-spaces `n . p < d` with unit n. `max_k(n_k . p - d_k)` is the distance
+//! to the farthest violated plane in metres: a lower bound of the distance to the region, equal to it across a face.
+//! Inside, it is negative: the distance to the nearest face.
 //!
 //! Frame: the chain's base frame, metres.
 
@@ -13,7 +14,7 @@ use super::plane::Plane;
 use super::spec::{GeometrySpec, Side};
 use nalgebra::Vector3;
 
-/// Smallest violation reported, m (or rad): a point on the boundary violates by this much.
+/// Smallest violation reported, m (or rad); a point on the boundary violates by this much.
 pub(super) const LEAST_VIOLATION: f64 = 1e-12;
 
 /// A convex open region.
@@ -24,8 +25,10 @@ pub(super) enum Region {
 }
 
 impl Region {
+    /// Builds the region.
+    ///
     /// # Errors
-    /// [`ConstraintError`] for numbers that are not finite, regions without inside and hulls without volume.
+    /// [`ConstraintError`] for non-finite numbers, regions without an interior and hulls without volume.
     pub fn new(spec: &GeometrySpec) -> Result<Self, ConstraintError> {
         match spec {
             GeometrySpec::Box { lower_m, upper_m, dilatation_m } => {
@@ -59,7 +62,7 @@ impl Region {
         }
     }
 
-    /// How far `point` (m) is from the `side` it belongs on: 0 strictly there, else at least [`LEAST_VIOLATION`].
+    /// Distance of `point` (m) from the required `side`: 0 if it is strictly there, else at least [`LEAST_VIOLATION`].
     #[inline]
     pub fn violation(&self, side: Side, point: &Vector3<f64>) -> f64 {
         let beyond = match self {

@@ -1,19 +1,18 @@
-//! The convex hull of points as half-spaces, by its definition: a plane through three points with all others on one
-//! side.
+//! Convex hull of points as half-spaces, by definition: every plane through three points with all others on one side.
 //!
-//! O(k^4) for k points: a tenth of a second at the limit of 128, once a job, and nothing but the definition to get
-//! wrong. A quickhull (parry's) would be faster on thousands of points, which no hand-written constraint has.
+//! O(k^4) for k points: a tenth of a second at the limit of 128, once per job, and simple enough to be obviously right.
+//! A quickhull (parry's) would be faster for thousands of points, which no hand-written constraint has.
 
 use super::error::ConstraintError;
 use super::plane::Plane;
 use nalgebra::Vector3;
 
-/// Most points of a hull.
+/// Maximum number of points of a hull.
 pub(super) const MAX_POINTS: usize = 128;
-/// Points nearer to a plane than this share of the cloud's size lie on it.
+/// Points closer to a plane than this share of the cloud's size count as lying on it.
 const ON_PLANE: f64 = 1e-9;
 
-/// The faces of the hull of `points` (m): every point satisfies `normal . p <= offset_m` up to rounding.
+/// Faces of the hull of `points` (m): every point satisfies `normal . p <= offset_m` up to rounding.
 ///
 /// # Errors
 /// [`ConstraintError::HullPoints`] for fewer than 4 or more than [`MAX_POINTS`] points, [`ConstraintError::FlatHull`]
@@ -43,7 +42,7 @@ pub(super) fn planes(points: &[Vector3<f64>]) -> Result<Vec<Plane>, ConstraintEr
     Ok(faces)
 }
 
-/// The plane through three points, outward, if no point lies beyond it.
+/// The plane through three points, facing outwards; `None` if points lie on both sides.
 fn face(points: &[Vector3<f64>], corners: [usize; 3], size: f64) -> Option<Plane> {
     let [a, b, c] = corners.map(|corner| points[corner]);
     let across = (b - a).cross(&(c - a));

@@ -1,9 +1,10 @@
-//! Constraints: what a candidate must satisfy, and what is done when it does not.
+//! Constraints: conditions on candidates, and the treatment of candidates that violate them.
 //!
 //! # Architecture Invariants
-//! - A constraint measures; it moves nothing and knows no optimiser. Its violation is 0 exactly where it is satisfied.
-//! - All strategies work on every optimiser through one judge ([`Constrained`]) between proposing and executing.
-//! - Every search for a feasible candidate is bounded; a goal without one ends with a typed reason, not with a hang.
+//! - A constraint only measures; it changes nothing and knows no optimiser. Its violation is 0 exactly if it is
+//!   satisfied.
+//! - All strategies work with every optimiser through one judge ([`Constrained`]) between proposal and execution.
+//! - Every search for a feasible candidate is bounded; a goal without one ends with a typed reason instead of hanging.
 
 mod constrained;
 mod error;

@@ -1,26 +1,27 @@
-//! Penalties: how much worse an executed infeasible candidate's discrepancy is told to the optimiser.
+//! Penalties: how much an executed infeasible candidate's discrepancy is increased before the optimiser sees it.
 //!
 //! Symbols: discrepancy f (features' unit, >= 0), violations v_k (m or rad), generation t (0 is the initial
-//! population), penalty p >= 0 with p = 0 exactly where every v_k is 0. Told: f + p (paper eq. 7) or f (1 + p) (eq. 8).
+//! population), penalty p >= 0 with p = 0 exactly if every v_k is 0. The optimiser sees f + p (paper eq. 7) or f (1 +
+//! p) (eq. 8).
 //!
-//! Sources: survey by O. Yeniay, Math. Comput. Appl. 10 (2005) 45-56, DOI 10.3390/mca10010045; static: A. Homaifar,
-//! C. X. Qi, S. H. Lai, Simulation 62 (1994) 242-253, DOI 10.1177/003754979406200405 (one level of violation); dynamic:
-//! J. A. Joines, C. R. Houck, IEEE ICEC 1994, DOI 10.1109/ICEC.1994.349995; adaptive: J. C. Bean, A. B. Hadj-Alouane,
-//! "A dual genetic algorithm for bounded integer programs", TR 92-53, University of Michigan (1992); annealing:
-//! Z. Michalewicz, N. Attia, "Evolutionary optimization of constrained problems", 3rd Conf. Evolutionary Programming
-//! (1994), all as Z. Michalewicz, M. Schoenauer, Evolutionary Computation 4 (1996) 1-32, DOI 10.1162/evco.1996.4.1.1
-//! review them.
+//! Sources: survey by O. Yeniay, Math. Comput. Appl. 10 (2005) 45-56, DOI 10.3390/mca10010045; static: A. Homaifar, C.
+//! X. Qi, S. H. Lai, Simulation 62 (1994) 242-253, DOI 10.1177/003754979406200405 (one level of violation); dynamic: J.
+//! A. Joines, C. R. Houck, IEEE ICEC 1994, DOI 10.1109/ICEC.1994.349995; adaptive: J. C. Bean, A. B. Hadj-Alouane, "A
+//! dual genetic algorithm for bounded integer programs", TR 92-53, University of Michigan (1992); annealing: Z.
+//! Michalewicz, N. Attia, "Evolutionary optimization of constrained problems", 3rd Conf. Evolutionary Programming
+//! (1994); all as reviewed by Z. Michalewicz, M. Schoenauer, Evolutionary Computation 4 (1996) 1-32, DOI
+//! 10.1162/evco.1996.4.1.1.
 
 use super::error::ConstraintError;
 use super::spec::{PenaltyForm, PenaltyKind, PenaltySpec};
 use serde::{Deserialize, Serialize};
 
-/// What a penalty remembers between generations.
+/// State of a penalty between generations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct PenaltyState {
-    /// lambda of the adaptive penalty.
+    /// Factor lambda of the adaptive penalty.
     lambda: f64,
-    /// Generations in a row whose best was feasible (positive) or infeasible (negative).
+    /// Number of consecutive generations whose best was feasible (positive) or infeasible (negative).
     streak: i64,
 }
 
@@ -30,7 +31,7 @@ impl PenaltyState {
         Self { lambda, streak: 0 }
     }
 
-    /// A generation has ended with a best candidate that is feasible or not.
+    /// Records that a generation ended with a feasible or infeasible best candidate.
     pub fn generation_ended(&mut self, kind: &PenaltyKind, best_is_feasible: bool) {
         let PenaltyKind::Adaptive { window, relax, tighten, .. } = *kind else { return };
         let before = self.streak;
@@ -44,8 +45,8 @@ impl PenaltyState {
     }
 }
 
-/// The discrepancy told for an executed candidate: `fitness` itself where feasible, else strictly larger (unless it is
-/// the largest float) and finite.
+/// Discrepancy reported for an executed candidate: `fitness` itself if feasible, else a finite, strictly larger value
+/// (unless `fitness` is the largest float).
 pub(super) fn penalised(
     spec: &PenaltySpec,
     state: &PenaltyState,
@@ -75,6 +76,8 @@ pub(super) fn penalised(
     worse.max(fitness.next_up()).min(f64::MAX)
 }
 
+/// Checks the parameters.
+///
 /// # Errors
 /// [`ConstraintError::OutOfRange`] with the field, the value and its range.
 pub(super) fn check(spec: &PenaltySpec) -> Result<(), ConstraintError> {

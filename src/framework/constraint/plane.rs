@@ -1,4 +1,4 @@
-//! The boundary of a convex region: what geometries are made of and hulls are found as.
+//! Half-spaces, the building blocks of regions and hulls.
 
 use nalgebra::Vector3;
 

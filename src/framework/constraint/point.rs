@@ -1,4 +1,4 @@
-//! The constrained point of the robot: its position for given joints.
+//! The constrained point of the robot, as a function of the joints.
 
 use super::error::ConstraintError;
 use super::geometry::finite;
@@ -6,7 +6,7 @@ use super::spec::{ChainJoint, PointSpec};
 use crate::robot::{Chain, RobotModel, RobotSpec, tool_position};
 use nalgebra::{Rotation3, Unit, Vector3};
 
-/// One revolute joint of a written-out chain.
+/// One revolute joint of an explicit chain.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Turn {
     offset_m: Vector3<f64>,
@@ -14,11 +14,11 @@ pub(super) struct Turn {
     gene: usize,
 }
 
-/// Where the constrained point is.
+/// Definition of the constrained point.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Point {
     Tool(Chain),
-    /// The tool of a shorter chain, and the robot's gene for each of its genes.
+    /// The tool of a shorter chain, with the index of the robot's gene for each of its genes.
     Link(Chain, Vec<usize>),
     Written(Vec<Turn>, Vector3<f64>),
 }
@@ -47,7 +47,7 @@ impl Point {
         }
     }
 
-    /// The point in the base frame, m; `joints` are the robot's free joints.
+    /// Position of the point in the base frame, m; `joints` are the robot's free joints.
     pub fn position(&self, joints: &[f64]) -> Vector3<f64> {
         match self {
             Self::Tool(chain) => tool_position(chain, joints),
@@ -62,7 +62,7 @@ impl Point {
     }
 }
 
-/// The robot's description cut off at `link`: joints beyond it are left out.
+/// The chain cut off at `link`; joints beyond it are left out.
 fn shorter(model: &RobotModel, robot: &RobotSpec, chain: &Chain, link: &str, offset_m: [f64; 3]) -> RobotSpec {
     let path = model.link_index(chain.base_link()).zip(model.link_index(link)).and_then(|(b, l)| model.path(b, l));
     let leaders = path.unwrap_or_default().into_iter().map(|joint| {
@@ -104,7 +104,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// p_c of the paper, written out: S_c + Ry(q0) Rx(q1) [(0, 0, -0.32901) + Ry(q3) (0, 0, -0.4692)], q = -g.
+    /// The paper's p_c as a formula: S_c + Ry(q0) Rx(q1) [(0, 0, -0.32901) + Ry(q3) (0, 0, -0.4692)], q = -g.
     fn by_formula(g: &[f64]) -> Vector3<f64> {
         let ry = |angle: f64| Rotation3::from_axis_angle(&Vector3::y_axis(), angle);
         let rx = |angle: f64| Rotation3::from_axis_angle(&Vector3::x_axis(), angle);

@@ -1,7 +1,7 @@
-//! All constraints of a job together: how far a candidate is from satisfying each.
+//! All constraints of a job: how far a candidate is from satisfying each of them.
 //!
-//! A violation is 0 where satisfied and positive where not: metres on the wrong side of a region's boundary, radians (or
-//! metres) above a step limit. A candidate is feasible exactly when every violation is 0.
+//! A violation is 0 if satisfied, otherwise positive: metres on the wrong side of a region's boundary, radians (or
+//! metres) above a step limit. A candidate is feasible exactly if every violation is 0.
 
 use super::error::ConstraintError;
 use super::geometry::{LEAST_VIOLATION, Region, finite, positive};
@@ -9,7 +9,7 @@ use super::point::Point;
 use super::spec::{ConstraintSpec, Side};
 use crate::robot::{Chain, RobotModel, RobotSpec};
 
-/// A candidate and what its constraints refer to; joints in gene order, rad or m.
+/// A candidate with everything its constraints refer to; joints in gene order, rad or m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proposal<'a> {
     /// The candidate.
@@ -73,7 +73,7 @@ impl Constraints {
         self.0.is_empty()
     }
 
-    /// Whether the regions allow a pose (n joints, rad or m), wherever it is reached from.
+    /// Whether the regions allow a pose (n joints, rad or m), regardless of the previous pose.
     #[must_use]
     pub fn allows(&self, joints: &[f64]) -> bool {
         let proposal = Proposal { joints, origins: [None; 2], previous: None };
@@ -81,7 +81,7 @@ impl Constraints {
         regions.map(|region| region.violation(&proposal)).all(|violation| violation == 0.0)
     }
 
-    /// The smallest step between goals (rad or m), with where the first one is counted from.
+    /// The smallest limit on the step between goals (rad or m), with the start of the first step if it is given.
     #[must_use]
     pub fn joint_step(&self) -> Option<(f64, Option<&[f64]>)> {
         let steps = self.0.iter().filter_map(|constraint| match constraint {
@@ -97,7 +97,7 @@ impl Constraints {
         self.0.iter().any(|constraint| matches!(constraint, Constraint::PopulationVelocity { .. }))
     }
 
-    /// The violations of `proposal`, one a constraint in the order given; 0 where satisfied.
+    /// Violations of `proposal`, one per constraint in the given order; 0 if satisfied.
     pub fn violations(&self, proposal: &Proposal<'_>) -> impl Iterator<Item = f64> {
         self.0.iter().map(|constraint| constraint.violation(proposal))
     }

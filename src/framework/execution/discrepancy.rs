@@ -1,7 +1,7 @@
-//! The discrepancy of a growing observation O_1..O_j against X_1..X_j, one row of the DTW matrix a candidate.
+//! Discrepancy of a growing observation O_1..O_j against X_1..X_j, computing one row of the DTW matrix per candidate.
 //!
-//! The rows of O_1..O_j-1 are kept over all n goals, so a candidate costs j local distances and one row; the bits equal
-//! those of warping the whole observation anew.
+//! The row of O_1..O_j-1 is kept over all n goals, so that a candidate costs j local distances and one row. The bits
+//! equal those of warping the whole observation anew.
 
 use crate::generalization::Goals;
 use crate::recognition::Metric;
@@ -11,9 +11,9 @@ use crate::recognition::dtw::{Border, extend_row, local_distances};
 #[derive(Debug, Clone)]
 pub struct PartialDiscrepancy {
     border: Border,
-    /// Features in one path: m, or 1 where each feature has its own.
+    /// Number of features per path: m, or 1 if each feature has its own path.
     width: usize,
-    /// Whether a path's cost is divided by its rows, as `sum_of_features` does.
+    /// Whether a path's cost is divided by its length, as in `sum_of_features`.
     normalised: bool,
     planes: Vec<Plane>,
     local: Vec<f64>,
@@ -23,14 +23,14 @@ pub struct PartialDiscrepancy {
 
 #[derive(Debug, Clone)]
 struct Plane {
-    /// n x width goals, row-major.
+    /// Goals, n x width, row-major.
     goals: Vec<f64>,
     /// Row j-1 of the accumulated matrix over all n goals; empty before the first observation.
     previous: Vec<f64>,
 }
 
 impl PartialDiscrepancy {
-    /// Nothing observed yet.
+    /// Starts without observations.
     #[must_use]
     pub fn new(goals: &Goals, metric: Metric) -> Self {
         let m = goals.features().len();
@@ -53,15 +53,15 @@ impl PartialDiscrepancy {
         }
     }
 
-    /// Discrepancy (features' unit) of O_1..O_j-1 and then `observation` (m values) against X_1..X_j, where j - 1
-    /// observations were appended before; allocates nothing.
+    /// Discrepancy (features' unit) of O_1..O_j-1 followed by `observation` (m values) against X_1..X_j, where j - 1
+    /// observations have been appended before; does not allocate.
     ///
     /// # Panics
-    /// If all n observations were appended or `observation` has not m values.
+    /// If all n observations have been appended or `observation` does not have m values.
     #[must_use]
     pub fn of(&mut self, observation: &[f64]) -> f64 {
         let columns = self.observed + 1;
-        // sum of features: each path is normalised by its rows, observed and goals
+        // Sum of features: each path is normalised by its number of rows, observed plus goals.
         let length = if self.normalised { 2.0 * columns as f64 } else { 1.0 };
         let mut sum = 0.0;
         for (plane, part) in self.planes.iter().zip(observation.chunks_exact(self.width)) {
@@ -72,10 +72,10 @@ impl PartialDiscrepancy {
         sum
     }
 
-    /// `observation` (m values) becomes O_j.
+    /// Appends `observation` (m values) as O_j.
     ///
     /// # Panics
-    /// As [`PartialDiscrepancy::of`].
+    /// As for [`PartialDiscrepancy::of`].
     pub fn append(&mut self, observation: &[f64]) {
         for (plane, part) in self.planes.iter_mut().zip(observation.chunks_exact(self.width)) {
             local_distances(part, &plane.goals, &mut self.local);

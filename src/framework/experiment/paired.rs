@@ -1,39 +1,39 @@
-//! Is one setting better than another? Both ran the same seeds, so runs are compared pair by pair.
+//! Paired comparison of two settings that ran the same seeds.
 //!
-//! The test is Wilcoxon's signed rank: discrepancies pile up at local optima and evaluations are skewed, so the paired t
-//! test's normal differences cannot be assumed; ranks need only symmetry under the hypothesis of no difference.
+//! The test is Wilcoxon's signed-rank test: discrepancies cluster at local optima and evaluations are skewed, so the
+//! paired t test's normality assumption does not hold; ranks only need symmetry under the null hypothesis.
 //!
-//! Source: F. Wilcoxon, "Individual comparisons by ranking methods", 1945, doi:10.2307/3001968; ties and zeros as in
-//! M. Hollander, D. A. Wolfe, "Nonparametric statistical methods" (zeros dropped, mean ranks).
+//! Source: F. Wilcoxon, "Individual comparisons by ranking methods", 1945, doi:10.2307/3001968; ties and zeros as in M.
+//! Hollander, D. A. Wolfe, "Nonparametric statistical methods" (zeros dropped, mean ranks).
 
 use super::summary::{half_width_95, mean, standard_deviation};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 use utoipa::ToSchema;
 
-/// Up to this many non-zero differences the p value is exact (ties included).
+/// Up to this many non-zero differences, the p value is exact (including ties).
 const EXACT_UP_TO: usize = 50;
 
-/// One quantity of two settings over the same seeds; differences are second minus first.
+/// Comparison of one quantity over the same seeds; differences are second minus first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PairedComparison {
-    /// Pairs k compared.
+    /// Number of pairs k.
     pub pairs: u64,
-    /// Pairs without a difference; the test leaves them out.
+    /// Number of pairs without a difference, which the test drops.
     pub ties: u64,
     /// Mean of second - first.
     pub mean_difference: f64,
-    /// 95 % interval of the mean difference by Student's t; absent for one pair.
+    /// 95 % interval of the mean difference by Student's t; absent for a single pair.
     pub interval_95: Option<[f64; 2]>,
     /// Sum of the ranks of the positive differences.
     pub w_plus: f64,
-    /// Two-sided p value of Wilcoxon's signed rank test; 1 where no pair differs.
+    /// Two-sided p value of Wilcoxon's signed-rank test; 1 if no pair differs.
     pub p_value: f64,
-    /// Matched-pairs rank-biserial correlation, -1 (first is always larger) to 1 (second is always larger).
+    /// Matched-pairs rank-biserial correlation, from -1 (first is always larger) to 1 (second is always larger).
     pub rank_biserial: f64,
 }
 
-/// Compares `first[i]` with `second[i]`; none where there is no pair.
+/// Compares `first[i]` with `second[i]`; `None` if there are no pairs.
 ///
 /// # Panics
 /// If the slices differ in length.
@@ -64,7 +64,7 @@ pub fn compare(first: &[f64], second: &[f64]) -> Option<PairedComparison> {
     })
 }
 
-/// Twice the mean rank (from 1) of each value, values ascending by size: whole numbers, also with ties.
+/// Twice the mean rank (from 1) of each value, for values ascending by size; integers even with ties.
 fn doubled_ranks(ascending: &[f64]) -> Vec<u64> {
     let mut ranks = Vec::with_capacity(ascending.len());
     for group in ascending.chunk_by(|a, b| a.abs().total_cmp(&b.abs()).is_eq()) {
@@ -74,7 +74,7 @@ fn doubled_ranks(ascending: &[f64]) -> Vec<u64> {
     ranks
 }
 
-/// 2 P(W <= `smaller`), W the sum of a random half of the ranks: each sign is + or - with probability 1/2.
+/// 2 P(W <= `smaller`), where W is the sum of a random half of the ranks: each sign is + or - with probability 1/2.
 fn exact_p(doubled: &[u64], smaller: u64) -> f64 {
     let total = doubled.iter().sum::<u64>();
     #[expect(clippy::cast_possible_truncation, reason = "at most 2 x 50 x 51 / 2")]
@@ -97,7 +97,7 @@ fn exact_p(doubled: &[u64], smaller: u64) -> f64 {
 /// Normal approximation with the correction for ties and for continuity.
 fn normal_p(doubled: &[u64], plus: u64) -> f64 {
     let total = doubled.iter().sum::<u64>() as f64 / 2.0;
-    // The variance of a sum of independent signs on (mean) ranks; ties are in it already.
+    // Variance of a sum of independent signs on (mean) ranks, which already accounts for ties.
     let variance: f64 = doubled.iter().map(|&rank| (rank as f64 / 2.0).powi(2)).sum::<f64>() / 4.0;
     let distance = ((plus as f64 / 2.0 - total / 2.0).abs() - 0.5).max(0.0);
     (2.0 * Normal::standard().sf(distance / variance.sqrt())).min(1.0)

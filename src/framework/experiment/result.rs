@@ -1,4 +1,4 @@
-//! A cell's runs reduced to the numbers of a table, and two cells compared.
+//! A cell's runs reduced to the numbers of a table, and comparisons of two cells.
 
 use super::{Cell, Experiment, InvalidRule, PairedComparison, RunRow, Summary, compare};
 use crate::world::WorldSpec;
@@ -8,27 +8,27 @@ use utoipa::ToSchema;
 /// One row of a table: statistics over the runs that count.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct CellResult {
-    /// The table it belongs to.
+    /// Table it belongs to.
     pub table: String,
-    /// The action executed.
+    /// Action that was executed.
     pub action: String,
-    /// What tells it from its neighbours.
+    /// Setting that distinguishes it from its neighbours.
     pub setting: String,
-    /// Finished runs, valid or not.
+    /// Number of finished runs, valid or not.
     pub repetitions: u64,
-    /// Runs whose last goal had no feasible candidate.
+    /// Number of runs whose last goal had no feasible candidate.
     pub invalid: u64,
-    /// Evaluations after the last goal; absent while no run counts.
+    /// Evaluations after the last goal; absent until a run counts.
     pub evaluations: Option<Summary>,
     /// Discrepancy after the last goal (features' unit).
     pub discrepancy: Option<Summary>,
-    /// Share of the cells reached at the last goal, %; absent where the world has no cells.
+    /// Share of the cells reached at the last goal, %; absent if the world has no cells.
     pub painted: Option<Summary>,
-    /// Cumulative evaluations after each goal.
+    /// Cumulative evaluations after each goal, one entry per goal.
     pub cumulative: Vec<Summary>,
 }
 
-/// A number of a run that can be compared.
+/// A quantity of a run that can be compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -40,7 +40,7 @@ pub enum Quantity {
     Painted,
 }
 
-/// What a run counts for in its cell; none where the cell's rule leaves it out.
+/// Value of a run in its cell's statistics; `None` if the cell's rule leaves it out.
 fn value(row: &RunRow, cell: &Cell, quantity: Quantity) -> Option<f64> {
     let counted_as = match (row.invalid, cell.spec.invalid) {
         (true, InvalidRule::Exclude) => return None,
@@ -70,7 +70,7 @@ fn cumulative(rows: &[&RunRow]) -> Vec<Summary> {
 }
 
 impl CellResult {
-    /// The statistics of `cell` over its finished `rows`.
+    /// Statistics of `cell` over its finished `rows`.
     pub fn of<'r>(cell: &Cell, rows: impl Iterator<Item = &'r RunRow>) -> Self {
         let rows: Vec<&RunRow> = rows.collect();
         let summary =
@@ -92,7 +92,8 @@ impl CellResult {
 }
 
 impl Experiment {
-    /// Cell `second` against cell `first` over the seeds that count in both; none where there is no such seed or cell.
+    /// Compares cell `second` with cell `first` over the seeds that count in both; `None` if there is no such seed or
+    /// cell.
     #[must_use]
     pub fn compare(&self, first: u32, second: u32, quantity: Quantity) -> Option<PairedComparison> {
         let cells = &self.plan().cells;

@@ -1,27 +1,27 @@
-//! One run of a plan, start to end: a pure function of plan and id.
+//! One run of a plan from start to end: a pure function of plan and id.
 
 use super::{Plan, RunId, RunRow};
 use crate::execution::{self, Problem, ProblemError, RunResult};
 
-/// Why a run has no row.
+/// Reasons why a run has no row.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The plan has no such run.
     #[error("the plan has no repetition {} of cell {}", id.repetition, id.cell)]
     Unplanned {
-        /// The run.
+        /// Id of the run.
         id: RunId,
     },
     /// The problem cannot be executed.
     #[error("{action}, {setting} with seed {seed}")]
     Problem {
-        /// The cell's action.
+        /// Action of the cell.
         action: String,
-        /// The cell's setting.
+        /// Setting of the cell.
         setting: String,
-        /// The run's seed.
+        /// Seed of the run.
         seed: u64,
-        /// What was wrong.
+        /// Underlying error.
         source: Box<ProblemError>,
     },
 }
@@ -34,19 +34,19 @@ pub fn run(plan: &Plan, id: RunId) -> Result<RunRow, RunError> {
     result(plan, id).map(|result| RunRow::of(id, &result))
 }
 
-/// As [`run`]; none if `go_on` answers no before the end. Being asked changes no bit of the row.
+/// Like [`run`]; `None` if `go_on` returns false before the end. Calling `go_on` does not change a bit of the row.
 ///
 /// # Errors
-/// As [`run`].
+/// As for [`run`].
 pub fn run_while(plan: &Plan, id: RunId, go_on: impl Fn() -> bool) -> Result<Option<RunRow>, RunError> {
     let found = execute(plan, id, |problem, seed| execution::run_while(problem, seed, go_on))?;
     Ok(found.map(|result| RunRow::of(id, &result)))
 }
 
-/// As [`run`], with every goal's joints and observation.
+/// Like [`run`], with every goal's joints and observation.
 ///
 /// # Errors
-/// As [`run`].
+/// As for [`run`].
 pub fn result(plan: &Plan, id: RunId) -> Result<RunResult, RunError> {
     execute(plan, id, execution::run)
 }

@@ -1,4 +1,4 @@
-//! An experiment as users write it, and its expansion into a self-contained plan of runs.
+//! An experiment as written by users, and its expansion into a self-contained plan of runs.
 
 use super::patch::merge;
 use crate::execution::Problem;
@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use utoipa::ToSchema;
 
-/// Most runs (cells x repetitions) one experiment may have.
+/// Maximum number of runs (cells x repetitions) of an experiment.
 pub const MAX_RUNS: u64 = 1_000_000;
 
-/// What to run: single cells, a matrix, or both; every cell runs the seeds `seed..seed + repetitions`, so that cells
-/// can be compared pair by pair.
+/// Description of an experiment: individual cells, a matrix, or both. Every cell runs the seeds
+/// `seed..seed + repetitions`, so that cells can be compared in pairs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentSpec {
@@ -20,46 +20,47 @@ pub struct ExperimentSpec {
     /// Seed of each cell's first repetition.
     #[serde(default)]
     pub seed: u64,
-    /// Runs of each cell (at least 1).
+    /// Number of runs per cell (at least 1).
     pub repetitions: u32,
-    /// Cells one by one.
+    /// Individual cells.
     #[serde(default)]
     pub cells: Vec<CellSpec>,
-    /// Every preset with every method and every setting.
+    /// Matrix of every preset with every method and every setting.
     #[serde(default)]
     pub matrix: Option<MatrixSpec>,
 }
 
-/// One cell: a preset and what it changes in it.
+/// One cell: a preset and the changes to it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CellSpec {
-    /// What the cell is shown under, for example a table's number.
+    /// Heading under which the cell is shown, for example the number of a table.
     #[serde(default)]
     pub table: String,
-    /// The action executed, for display.
+    /// Name of the action, for display.
     pub action: String,
-    /// What tells the cell from its neighbours; (table, action, setting) is unique.
+    /// Setting that distinguishes the cell from its neighbours; (table, action, setting) is unique.
     pub setting: String,
-    /// The problem it starts from.
+    /// Name of the preset it starts from.
     pub preset: String,
-    /// Which of the preset's methods searches, with the preset's own parameters where it has some; its first where absent.
+    /// Method to use, with the preset's own parameters for it if it has any; the preset's first method if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
-    /// JSON merge patch over the preset's problem; picking another `name`, `kind` or `strategy` replaces that whole choice.
+    /// JSON merge patch over the preset's problem; selecting another `name`, `kind` or `strategy` replaces that whole
+    /// choice.
     #[serde(default)]
     #[schema(value_type = Object)]
     pub overrides: Value,
-    /// What a run without any feasible candidate at its last goal counts for.
+    /// Treatment of a run without any feasible candidate at its last goal.
     #[serde(default)]
     pub invalid: InvalidRule,
 }
 
-/// Presets x methods x settings; an axis left empty changes nothing.
+/// Presets x methods x settings; an empty axis changes nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MatrixSpec {
-    /// Problems to start from.
+    /// Names of the presets to start from.
     pub presets: Vec<String>,
     /// First axis of overrides.
     #[serde(default)]
@@ -67,18 +68,18 @@ pub struct MatrixSpec {
     /// Second axis of overrides, applied after the first.
     #[serde(default)]
     pub settings: Vec<Variant>,
-    /// As in [`CellSpec`].
+    /// Treatment of invalid runs, as in [`CellSpec`].
     #[serde(default)]
     pub invalid: InvalidRule,
 }
 
-/// One point of an axis.
+/// One point on an axis of the matrix.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
-    /// Shown as the cell's setting.
+    /// Name, shown as part of the cell's setting.
     pub name: String,
-    /// As in [`CellSpec`].
+    /// Method to use, as in [`CellSpec`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
     /// JSON merge patch over the problem.
@@ -87,118 +88,118 @@ pub struct Variant {
     pub overrides: Value,
 }
 
-/// What a run counts for when its last goal ended without a feasible candidate.
+/// Treatment of a run whose last goal ended without a feasible candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum InvalidRule {
-    /// It is left out of every statistic and counted as invalid.
+    /// It is left out of all statistics and counted as invalid.
     #[default]
     Exclude,
-    /// It counts with this discrepancy (features' unit) and nothing painted.
+    /// It counts with this discrepancy (features' unit) and a painted share of 0.
     CountAs(f64),
 }
 
 /// A cell with its whole problem.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
-    /// As written or expanded from the matrix.
+    /// The cell as written, or as expanded from the matrix.
     pub spec: CellSpec,
-    /// The preset with the overrides in place.
+    /// The preset's problem with the overrides applied.
     pub problem: Problem,
 }
 
-/// An experiment expanded: all it takes to run it, whatever becomes of the presets.
+/// An expanded experiment: self-contained, even if presets change later.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// Display name.
     pub name: String,
     /// Seed of each cell's first repetition.
     pub seed: u64,
-    /// Runs of each cell.
+    /// Number of runs per cell.
     pub repetitions: u32,
-    /// In table order.
+    /// Cells in table order.
     pub cells: Vec<Cell>,
 }
 
-/// Why a description is not an experiment.
+/// Reasons why a description is not a valid experiment.
 #[derive(Debug, thiserror::Error)]
 pub enum ExperimentError {
-    /// Nothing to run.
+    /// There is nothing to run.
     #[error("the experiment has {cells} cells of {repetitions} repetitions: give at least one of each")]
     Empty {
-        /// Cells after expansion.
+        /// Number of cells after expansion.
         cells: usize,
-        /// Repetitions asked for.
+        /// Requested repetitions.
         repetitions: u32,
     },
-    /// Too much to run.
+    /// There are too many runs.
     #[error("{cells} cells x {repetitions} repetitions are more than {limit} runs: split the experiment")]
     TooManyRuns {
-        /// Cells after expansion.
+        /// Number of cells after expansion.
         cells: usize,
-        /// Repetitions asked for.
+        /// Requested repetitions.
         repetitions: u32,
-        /// The limit.
+        /// Maximum number of runs.
         limit: u64,
     },
-    /// Seeds beyond 64 bits.
+    /// The last seed exceeds 64 bits.
     #[error("seed {seed} with {repetitions} repetitions runs past the largest seed, {}: start lower", u64::MAX)]
     Seed {
         /// First seed.
         seed: u64,
-        /// Repetitions asked for.
+        /// Requested repetitions.
         repetitions: u32,
     },
-    /// A preset nobody knows.
+    /// The preset does not exist.
     #[error("cell {cell} ({setting:?}) starts from preset {preset:?}, which does not exist")]
     UnknownPreset {
-        /// Cell index from 0.
+        /// Index of the cell, from 0.
         cell: usize,
-        /// Its setting.
+        /// Setting of the cell.
         setting: String,
-        /// The preset named.
+        /// Name of the preset.
         preset: String,
     },
-    /// A method nobody knows.
+    /// The method does not exist.
     #[error("cell {cell} ({setting:?}) names method {method:?}, which does not exist")]
     UnknownMethod {
-        /// Cell index from 0.
+        /// Index of the cell, from 0.
         cell: usize,
-        /// Its setting.
+        /// Setting of the cell.
         setting: String,
-        /// The method named.
+        /// Name of the method.
         method: String,
     },
-    /// Two cells nobody could tell apart.
+    /// Two cells have the same names.
     #[error("cells {first} and {second} are both table {table:?}, action {action:?}, setting {setting:?}: rename one")]
     Duplicate {
-        /// Cell index from 0.
+        /// Index of the first cell, from 0.
         first: usize,
-        /// Cell index from 0.
+        /// Index of the second cell, from 0.
         second: usize,
-        /// Their table.
+        /// Table of both.
         table: String,
-        /// Their action.
+        /// Action of both.
         action: String,
-        /// Their setting.
+        /// Setting of both.
         setting: String,
     },
-    /// A preset with overrides that is no problem.
+    /// A preset with overrides does not form a valid problem.
     #[error("cell {cell} ({setting:?}): its overrides do not fit preset {preset:?}")]
     Overrides {
-        /// Cell index from 0.
+        /// Index of the cell, from 0.
         cell: usize,
-        /// Its setting.
+        /// Setting of the cell.
         setting: String,
-        /// Its preset.
+        /// Name of the preset.
         preset: String,
-        /// What did not fit.
+        /// Underlying error.
         source: serde_json::Error,
     },
 }
 
 impl ExperimentSpec {
-    /// All cells: those given one by one, then the matrix, preset by preset, method by method, setting by setting.
+    /// All cells: the individual ones, then the matrix, ordered by preset, method and setting.
     #[must_use]
     pub fn all_cells(&self) -> Vec<CellSpec> {
         let mut cells = self.cells.clone();
@@ -231,7 +232,7 @@ impl ExperimentSpec {
         cells
     }
 
-    /// The experiment with every cell's problem in place; `preset` finds one by its name.
+    /// Expands the experiment, building every cell's problem; `preset` looks up a preset by name.
     ///
     /// # Errors
     /// [`ExperimentError`] names the first cell that breaks a rule.

@@ -1,25 +1,25 @@
-//! What a set of runs says about one quantity.
+//! Statistics of one quantity over a set of runs.
 //!
 //! # Invariants
-//! - Sums run in the order given: the same rows give the same bits.
-//! - No statistic is invented: a spread of one value and a quantile of none are absent.
+//! - Sums run in the given order: the same rows give the same bits.
+//! - No statistic is invented: the spread of a single value and the quantile of an empty set are absent.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use utoipa::ToSchema;
 
-/// Mean, spread and order statistics of k values, in the unit of the values.
+/// Mean, spread and order statistics of k values, in their unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Summary {
     /// Number of values k (at least 1).
     pub count: u64,
     /// Arithmetic mean.
     pub mean: f64,
-    /// Sample standard deviation (k - 1 in the denominator); absent for one value.
+    /// Sample standard deviation (denominator k - 1); absent for a single value.
     pub sd: Option<f64>,
-    /// 95 % confidence interval of the mean by Student's t; absent for one value.
+    /// 95 % confidence interval of the mean by Student's t; absent for a single value.
     pub interval_95: Option<[f64; 2]>,
-    /// Middle value.
+    /// Median.
     pub median: f64,
     /// 90th percentile.
     pub p90: f64,
@@ -30,7 +30,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// The summary of `values`; none where there is no value.
+    /// Summary of `values`; `None` if empty.
     #[must_use]
     pub fn of(values: &[f64]) -> Option<Self> {
         let mut sorted = values.to_vec();
@@ -52,13 +52,13 @@ impl Summary {
     }
 }
 
-/// Arithmetic mean; none of no value.
+/// Arithmetic mean; `None` if empty.
 #[must_use]
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Sample standard deviation, sqrt(sum (x - mean)^2 / (k - 1)); none for fewer than two values.
+/// Sample standard deviation, sqrt(sum (x - mean)^2 / (k - 1)); `None` for fewer than two values.
 #[must_use]
 pub fn standard_deviation(values: &[f64]) -> Option<f64> {
     let centre = mean(values)?;

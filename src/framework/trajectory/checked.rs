@@ -100,7 +100,7 @@ pub enum TrajectoryError {
         /// Limit, in the same unit.
         limit: f64,
     },
-    /// Time does not increase.
+    /// Time does not strictly increase.
     #[error("sample {index} at {time_s} s is not after {previous_s} s")]
     NonIncreasing {
         /// Sample index from 0.

@@ -1,18 +1,18 @@
-//! The coverage world (the paper's paint): which cells of a grid the tool has come near.
+//! The coverage world (the paper's paint): the cells of a grid that the tool has come close to.
 
 use super::{CoverageSpec, SurfaceView, World, WorldError};
 use crate::Feature;
 use crate::robot::{Chain, tool_position};
 use nalgebra::Vector3;
 
-/// Most cells a surface may have.
+/// Maximum number of cells of a surface.
 const MAX_CELLS: u64 = 1 << 20;
-/// Most cells of a surface whose cells are seen: each is a feature.
+/// Maximum number of cells if each is observed as a feature.
 const MAX_SEEN_CELLS: u64 = 1 << 12;
-/// Largest coordinate, step and reach, metres.
+/// Largest coordinate, step and radius, metres.
 const MAX_LENGTH_M: f64 = 1e4;
 
-/// Feature `painted`, %, and the cells where they are seen. Cells are bits, row-major.
+/// Feature `painted`, %, followed by the cells if they are observed. Cells are bits in row-major order.
 #[derive(Debug, Clone)]
 pub(super) struct Coverage {
     chain: Chain,
@@ -23,7 +23,7 @@ pub(super) struct Coverage {
     count: usize,
 }
 
-/// The features of a coverage world: the share, then the cells where they are seen.
+/// Features of a coverage world: the percentage, followed by the cells if they are observed.
 pub(super) fn features(spec: &CoverageSpec) -> Vec<Feature> {
     let cell = |row, column| Feature::new(format!("cell_{row}_{column}"), "");
     let cells = |row| (1..=spec.columns).map(move |column| cell(row, column));
@@ -34,10 +34,10 @@ pub(super) fn features(spec: &CoverageSpec) -> Vec<Feature> {
     }
 }
 
-/// Whether a surface can be built, without building it.
+/// Checks whether a surface can be built, without building it.
 ///
 /// # Errors
-/// [`WorldError`] for a grid that is empty, too large, degenerate or beyond any robot, and for a tool without reach.
+/// [`WorldError`] for a grid that is empty, too large, degenerate or implausible, and for a tool without a radius.
 pub(super) fn check(spec: &CoverageSpec) -> Result<(), WorldError> {
     if !(spec.radius_m > 0.0 && spec.radius_m <= MAX_LENGTH_M) {
         return Err(WorldError::Radius { found: spec.radius_m, limit: MAX_LENGTH_M });
@@ -70,7 +70,7 @@ pub(super) fn check(spec: &CoverageSpec) -> Result<(), WorldError> {
 /// Cell centres in the base frame, row-major.
 ///
 /// # Errors
-/// As [`check`].
+/// As for [`check`].
 pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldError> {
     check(spec)?;
     let [origin, column, row] = [spec.origin_m, spec.column_step_m, spec.row_step_m].map(Vector3::from);

@@ -1,45 +1,45 @@
-//! Why a description is not a world.
+//! Reasons why a description is not a valid world.
 
-/// A world that cannot be built; each variant carries the value and what is allowed.
+/// A world cannot be built; each variant carries the value and what is allowed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WorldError {
-    /// An unknown unit.
+    /// The unit is unknown.
     #[error("unit of a tool position is {found:?}: use \"m\" or \"mm\"")]
     Unit {
-        /// The unit given.
+        /// Unit given.
         found: String,
     },
-    /// A grid without cells or with too many.
+    /// A grid has no cells, or too many.
     #[error("a surface of {columns} columns and {rows} rows has {cells} cells: 1 to {limit} are allowed")]
     Cells {
-        /// Columns given.
+        /// Number of columns.
         columns: u32,
-        /// Rows given.
+        /// Number of rows.
         rows: u32,
-        /// Their product.
+        /// Number of cells.
         cells: u64,
-        /// Most cells allowed.
+        /// Maximum number of cells.
         limit: u64,
     },
-    /// A tool without reach.
+    /// The radius of the tool is not positive or too large.
     #[error("radius_m is {found:?}: give a reach above 0 m and of at most {limit} m")]
     Radius {
-        /// The radius given.
+        /// Radius given, m.
         found: f64,
-        /// Largest reach.
+        /// Largest allowed radius, m.
         limit: f64,
     },
-    /// A coordinate that is no number or beyond any robot.
+    /// A coordinate is not finite or implausibly large.
     #[error("{field} holds {value:?}: give metres, at most {limit} either way")]
     Length {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// The value.
+        /// Value of the objective.
         value: f64,
-        /// Largest magnitude.
+        /// Largest allowed magnitude, m.
         limit: f64,
     },
-    /// All cells of a row or column at one place.
+    /// All cells of a row or column are at the same place.
     #[error("{field} is zero for {count} cells: they would lie on one another")]
     ZeroStep {
         /// `column_step_m` or `row_step_m`.
@@ -47,14 +47,14 @@ pub enum WorldError {
         /// Number of cells along it.
         count: u32,
     },
-    /// A number of the simulated reality out of its range.
+    /// A number of the simulated reality is out of range.
     #[error("reality.{field} is {value:?}: give {expected}")]
     Reality {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// The value given.
+        /// Value given.
         value: f64,
-        /// The range.
+        /// Allowed range.
         expected: &'static str,
     },
 }

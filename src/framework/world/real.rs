@@ -1,8 +1,8 @@
-//! A simulated *real* world: the robot is not quite as described, sensors and joints are noisy, observations come late or
-//! get lost.
+//! A simulated *real* world: the robot deviates from its description, sensors and joints are noisy, observations are
+//! late or lost.
 //!
-//! Invariants: what is drawn depends on the seed, and the noise of a trial on the seed and its pose, alone: slices,
-//! resumes and threads change no bit. A lost observation is NaN in every feature.
+//! Invariants: random draws depend only on the seed, and the noise of a trial only on the seed and its pose; slices,
+//! resumes and threads do not change a bit. A lost observation is NaN in every feature.
 
 use super::{World, WorldError, WorldSpec, build};
 use crate::Feature;
@@ -12,29 +12,30 @@ use crate::trajectory::{JointLimits, late, limits};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// How far reality is from its description.
+/// Deviation of the simulated reality from its description.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RealitySpec {
-    /// Each link's length is off by up to this share, uniformly.
+    /// Maximum relative error of each link's length, uniformly distributed.
     pub link_share: f64,
-    /// The base is off by this distance in a random direction, metres.
+    /// Distance by which the base is shifted in a random direction, metres.
     pub base_shift_m: f64,
     /// Standard deviation of each observed feature, features' unit.
     pub sensor_noise: f64,
     /// Standard deviation of each joint about its command, degrees.
     pub joint_noise_deg: f64,
-    /// Share of the trials whose observation is lost, 0 or more and below 1; such a trial is an evaluation too.
+    /// Share of the trials whose observation is lost, in [0, 1); such trials still count as evaluations.
     pub lost_share: f64,
-    /// Age of an observation when it arrives, seconds. The arm is seen where it was `latency_s - settle_s` before it
-    /// came to rest, on its quickest way from the pose before: the last one repeated for the trial, else home.
+    /// Age of an observation on arrival, seconds. It shows the arm where it was `latency_s - settle_s` before it came
+    /// to rest, on its fastest motion from the previous pose: the last one re-executed for the trial, or else home.
     #[serde(skip_serializing_if = "is_zero")]
     pub latency_s: f64,
-    /// How long the arm rests before it is observed, seconds: from the latency on, observations are of the pose itself.
+    /// Time for which the arm rests before it is observed, seconds; at the latency or above, observations show the pose
+    /// itself.
     #[serde(skip_serializing_if = "is_zero")]
     pub settle_s: f64,
-    /// Picks the links and base of this robot: the same robot in each job that gives the same number. The seed of the
-    /// run when absent, so that each run meets a robot of its own. Noise depends on the seed of the run in any case.
+    /// Seed of this robot's links and base: every job with the same number gets the same robot. If absent, the seed of
+    /// the run, so that each run gets its own robot. Noise always depends on the seed of the run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
 }
@@ -45,7 +46,7 @@ fn is_zero(value: &f64) -> bool {
 }
 
 impl RealitySpec {
-    /// Whether links or base are drawn, so that the seed makes another robot.
+    /// Whether links or base are drawn, so that another seed gives another robot.
     #[must_use]
     pub fn is_distorted(&self) -> bool {
         self.link_share > 0.0 || self.base_shift_m > 0.0
@@ -66,10 +67,10 @@ impl RealitySpec {
     }
 }
 
-/// The world of `spec` around a robot that is off from `chain` as `reality` says; `seed` is the run's.
+/// Builds the world of `spec` around a robot that deviates from `chain` as `reality` says; `seed` is the run's.
 ///
 /// # Errors
-/// [`WorldError`] as [`build`], and for a number of `reality` out of its range.
+/// [`WorldError`] as for [`build`], and for a number of `reality` out of range.
 pub fn build_real(
     spec: &WorldSpec,
     chain: &Chain,
@@ -102,18 +103,19 @@ struct Real {
     seed: u64,
     limits: Vec<JointLimits>,
     home: Vec<f64>,
-    /// Where the arm rested before the trial.
+    /// Pose in which the arm rested before the trial.
     before: Vec<f64>,
-    /// Where the arm comes to rest.
+    /// Pose in which the arm comes to rest.
     moved: Vec<f64>,
-    /// Where it is when it is observed.
+    /// Pose in which the arm is observed.
     seen: Vec<f64>,
-    /// What a commit shows: scratch, for the observation is of `seen`.
+    /// Scratch space for a commit's observation, which is discarded in favour of that of `seen`.
     effect: Vec<f64>,
 }
 
 impl Real {
-    /// Sets where the joints really go and where they are seen; returns the stream of the trial's noise.
+    /// Computes where the joints really move and where they are observed; returns the random stream of the trial's
+    /// noise.
     fn act(&mut self, joints: &[f64]) -> RandomStream {
         let mut word = self.seed ^ 0x9E37_79B9_7F4A_7C15;
         for joint in joints {

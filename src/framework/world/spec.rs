@@ -1,19 +1,19 @@
-//! World descriptions as users write them (TOML presets, REST); `kind` picks one.
+//! World descriptions as written by users (TOML presets, REST); `kind` selects the variant.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// One of the simulated worlds.
+/// Description of a simulated world.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum WorldSpec {
-    /// The tool's position is the observation (the paper's wax).
+    /// The observation is the tool's position (the paper's wax).
     ToolPosition(ToolPositionSpec),
-    /// The share of a surface's cells the tool has come near (the paper's paint).
+    /// The observation is the share of a surface's cells that the tool has come close to (the paper's paint).
     Coverage(CoverageSpec),
 }
 
-/// Features x, y, z: the tool centre point in the chain's base frame.
+/// Features x, y, z: position of the tool centre point in the chain's base frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToolPositionSpec {
@@ -21,38 +21,38 @@ pub struct ToolPositionSpec {
     pub unit: String,
 }
 
-/// What an observation of a surface holds.
+/// Content of an observation of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SurfaceView {
-    /// The share painted.
+    /// The painted percentage.
     #[default]
     Percent,
-    /// The share painted, then for each cell, row by row, feature `cell_ROW_COLUMN`: 1 painted, 0 not.
+    /// The painted percentage, followed by a feature `cell_ROW_COLUMN` per cell, row by row: 1 if painted, 0 if not.
     Cells,
 }
 
-/// Feature `painted`, %: 100 x cells painted / cells. A cell becomes painted when the tool centre point is strictly
-/// nearer than `radius_m` to its centre at a visited static pose, and stays painted until the world is reset.
+/// Feature `painted`, %: 100 x painted cells / cells. A cell becomes painted when the tool centre point, at a visited
+/// static pose, is strictly closer than `radius_m` to its centre, and stays painted until the world is reset.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CoverageSpec {
     /// Centre of the cell in row 0, column 0; base frame, metres.
     pub origin_m: [f64; 3],
-    /// From one column to the next, metres.
+    /// Vector from one column to the next, metres.
     pub column_step_m: [f64; 3],
-    /// From one row to the next, metres.
+    /// Vector from one row to the next, metres.
     pub row_step_m: [f64; 3],
     /// Number of columns (at least 1).
     pub columns: u32,
     /// Number of rows (at least 1).
     pub rows: u32,
-    /// Reach of the tool, metres (> 0).
+    /// Radius of the tool's effect, metres (> 0).
     pub radius_m: f64,
-    /// Whether the surface can be put back as it was between trials.
+    /// Whether the surface can be restored between trials.
     #[serde(default = "resets_by_default")]
     pub resets: bool,
-    /// Whether the painted cells are seen, or the share alone.
+    /// Whether the painted cells are observed, or only their percentage.
     #[serde(default, skip_serializing_if = "is_percent")]
     pub observes: SurfaceView,
 }

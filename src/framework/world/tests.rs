@@ -1,4 +1,4 @@
-//! Known values and refusals of worlds, on the shipped files.
+//! Worlds: known values and rejected descriptions, using the shipped files.
 
 use super::*;
 use crate::robot::{Chain, RobotModel, RobotSpec};

@@ -1,4 +1,5 @@
-//! The tool-position world (the paper's wax): the observation is where the tool is, whatever was executed before.
+//! The tool-position world (the paper's wax): the observation is the position of the tool, independent of earlier
+//! poses.
 
 use super::{ToolPositionSpec, World, WorldError};
 use crate::Feature;
@@ -12,7 +13,7 @@ pub(super) struct ToolPosition {
     scale: f64,
 }
 
-/// The features of a tool-position world.
+/// Features of a tool-position world.
 pub(super) fn features(spec: &ToolPositionSpec) -> Result<[Feature; 3], WorldError> {
     scale(spec)?;
     Ok(["x", "y", "z"].map(|name| Feature::new(name, spec.unit.as_str())))

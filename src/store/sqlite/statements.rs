@@ -1,4 +1,4 @@
-//! Statements as constants with a list of them all, so that a test prepares each on a fresh database.
+//! SQL statements as constants, collected in a list, so that a test can prepare each on a fresh database.
 
 macro_rules! statements {
     ($($(#[$doc:meta])* $name:ident = $sql:expr;)*) => {
