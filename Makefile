@@ -6,10 +6,12 @@ SHELL := /bin/bash
 LISTEN ?= 127.0.0.1:8080
 DATA_DIR ?= data
 TOOLS := target/tools/bin
+BUF := target/tools/npm/node_modules/.bin/buf
+PROTO_BASELINE := tests/fixtures/cgda.v1.binpb
 export PATH := $(HOME)/.cargo/bin:$(PATH)
 export CARGO_TERM_COLOR ?= never
 
-.PHONY: help setup setup-test web run test check check-rust check-web check-docs test-rust test-web test-e2e test-examples torture bench openapi audit image-lint fmt clean
+.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-docs test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
 
 help: ## this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 16
@@ -45,7 +47,7 @@ test: setup-test ## every gate and every test
 	@$(MAKE) --no-print-directory test-examples
 	@$(MAKE) --no-print-directory test-e2e
 
-check: check-rust check-web image-lint ## formatting, lints, documentation, dependencies
+check: check-rust check-web check-proto image-lint ## formatting, lints, documentation, dependencies
 
 check-rust:
 	cargo fmt --all --check
@@ -56,6 +58,13 @@ check-rust:
 
 check-web: web/node_modules/.package-lock.json
 	cd web && npm run --silent check:schema && npm run --silent typecheck && npm run --silent lint
+
+check-proto:
+	$(BUF) lint proto
+	$(BUF) breaking proto --against $(PROTO_BASELINE)
+
+proto-baseline: ## accept what proto/ is now as what clients rely on: later changes are checked against it
+	$(BUF) build proto --exclude-source-info --output $(PROTO_BASELINE)
 
 image-lint:
 	$(TOOLS)/hadolint Dockerfile

@@ -56,4 +56,13 @@ if [ "$mode" = test ]; then
     target/tools/bin/pip install --quiet --disable-pip-version-check -r .ci/requirements.txt
     cp .ci/requirements.txt "$stamp"
   fi
+  stamp=target/tools/npm/installed.json
+  if ! cmp -s .ci/package-lock.json "$stamp"; then
+    echo "installing the checkers of .ci/package.json into target/tools" >&2
+    mkdir -p target/tools/npm
+    cp .ci/package.json .ci/package-lock.json target/tools/npm/
+    # The binary comes as a package of its own: no script has to run.
+    (cd target/tools/npm && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
+    cp .ci/package-lock.json "$stamp"
+  fi
 fi

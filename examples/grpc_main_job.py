@@ -148,10 +148,10 @@ def main():
     world = service.call("WorldService", "CreateWorld", request).id
 
     log("4. execution")
-    method = service.message("SteadyStateTournament", population=50, stagnation=3)
+    method = service.message("MethodSpec", sst=service.message("SteadyStateTournament", population=50, stagnation=3))
     execution = service.message(
         "Execution", action=action, robot=robot, world=world, seed=1,
-        execution=service.message("ExecutionSpec", sst=method),
+        execution=service.message("ExecutionSpec", method=method),
     )
     request = service.message("CreateJobRequest", work=service.message("Work", execution=execution))
     job = watch(service, service.call("JobService", "CreateJob", request))
@@ -161,7 +161,7 @@ def main():
     if not run.trajectory:
         sys.exit(run.trajectory_problem)
     head = service.call("TrajectoryService", "GetTrajectory", service.message("GetTrajectoryRequest", id=run.trajectory))
-    log(f"  {head.points} points of {', '.join(head.joint_names)}, {head.duration_s:.2f} s")
+    log(f"  {head.point_count} points of {', '.join(head.joint_names)}, {head.duration_s:.2f} s")
     request = service.message("StreamTrajectoryRequest", id=run.trajectory, batch=64)
     for chunk in service.call("TrajectoryService", "StreamTrajectory", request):
         last = chunk.points[-1]

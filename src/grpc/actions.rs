@@ -1,7 +1,8 @@
 //! ActionService.
 
-use super::convert::{id, items, page, required, text, work};
+use super::convert::{items, page, required, resource, text, work};
 use super::error::status;
+use super::files::{FileStream, send};
 use super::proto;
 use crate::app::App;
 use proto::action_service_server::ActionService;
@@ -12,29 +13,30 @@ pub struct Service(pub App);
 
 #[tonic::async_trait]
 impl ActionService for Service {
+    type ExportActionStream = FileStream;
+
     async fn create_action(
         &self,
         request: Request<proto::CreateActionRequest>,
     ) -> Result<Response<proto::Job>, Status> {
-        let request = request.into_inner();
-        let wanted = required("/generalization", request.generalization).and_then(work::generalization);
-        let key = text(request.idempotency_key);
-        let job = self.0.create_action(wanted.map_err(status)?, key).await.map_err(status)?;
+        let proto::CreateActionRequest { generalization, idempotency_key } = request.into_inner();
+        let wanted = required("/generalization", generalization).and_then(work::generalization).map_err(status)?;
+        let job = self.0.create_action(wanted, text(idempotency_key)).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
     async fn get_action(&self, request: Request<proto::GetActionRequest>) -> Result<Response<proto::Action>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let view = self.0.get_action(&id).await.map_err(status)?;
-        Ok(Response::new(view.into()))
+        let proto::GetActionRequest { id } = request.into_inner();
+        let action = self.0.get_action(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(action.into()))
     }
 
     async fn list_actions(
         &self,
         request: Request<proto::ListActionsRequest>,
     ) -> Result<Response<proto::ListActionsResponse>, Status> {
-        let request = request.into_inner();
-        let found = self.0.list_actions(page(request.page_size, request.page_token)).await.map_err(status)?;
+        let proto::ListActionsRequest { page_size, page_token } = request.into_inner();
+        let found = self.0.list_actions(page(page_size, page_token)).await.map_err(status)?;
         let (actions, next_page_token) = items(found);
         Ok(Response::new(proto::ListActionsResponse { actions, next_page_token }))
     }
@@ -43,8 +45,26 @@ impl ActionService for Service {
         &self,
         request: Request<proto::GetActionGoalsRequest>,
     ) -> Result<Response<proto::ActionGoals>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let goals = self.0.action_goals(&id).await.map_err(status)?;
+        let proto::GetActionGoalsRequest { id } = request.into_inner();
+        let goals = self.0.action_goals(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(goals.into()))
+    }
+
+    async fn interpolate_action(
+        &self,
+        request: Request<proto::InterpolateActionRequest>,
+    ) -> Result<Response<proto::Interpolation>, Status> {
+        let proto::InterpolateActionRequest { id, n } = request.into_inner();
+        let curve = self.0.interpolate_action(&resource(&id).map_err(status)?, n).await.map_err(status)?;
+        Ok(Response::new(curve.into()))
+    }
+
+    async fn export_action(
+        &self,
+        request: Request<proto::ExportActionRequest>,
+    ) -> Result<Response<FileStream>, Status> {
+        let proto::ExportActionRequest { id, format } = request.into_inner();
+        let file = self.0.export_action(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
+        Ok(send(file))
     }
 }

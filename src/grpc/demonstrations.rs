@@ -1,8 +1,9 @@
 //! DemonstrationService.
 
-use super::convert::demonstration::header;
-use super::convert::{id, items, page};
+use super::convert::demonstration::{header, patch, samples};
+use super::convert::{items, page, resource};
 use super::error::status;
+use super::files::{FileStream, send};
 use super::proto;
 use crate::app::App;
 use crate::app::model::{AppError, ErrorKind, UploadDemonstration, UploadFile};
@@ -23,6 +24,8 @@ pub struct Service {
 
 #[tonic::async_trait]
 impl DemonstrationService for Service {
+    type ExportDemonstrationStream = FileStream;
+
     async fn upload(
         &self,
         request: Request<Streaming<proto::UploadRequest>>,
@@ -36,8 +39,8 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::GetDemonstrationRequest>,
     ) -> Result<Response<proto::Demonstration>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let view = self.app.get_demonstration(&id).await.map_err(status)?;
+        let proto::GetDemonstrationRequest { id } = request.into_inner();
+        let view = self.app.get_demonstration(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
 
@@ -45,8 +48,8 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::ListDemonstrationsRequest>,
     ) -> Result<Response<proto::ListDemonstrationsResponse>, Status> {
-        let request = request.into_inner();
-        let found = self.app.list_demonstrations(page(request.page_size, request.page_token)).await.map_err(status)?;
+        let proto::ListDemonstrationsRequest { page_size, page_token } = request.into_inner();
+        let found = self.app.list_demonstrations(page(page_size, page_token)).await.map_err(status)?;
         let (demonstrations, next_page_token) = items(found);
         Ok(Response::new(proto::ListDemonstrationsResponse { demonstrations, next_page_token }))
     }
@@ -55,9 +58,47 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::GetDemonstrationReportRequest>,
     ) -> Result<Response<proto::DemonstrationReport>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let report = self.app.demonstration_report(&id).await.map_err(status)?;
+        let proto::GetDemonstrationReportRequest { id } = request.into_inner();
+        let report = self.app.demonstration_report(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(report.into()))
+    }
+
+    async fn get_demonstration_samples(
+        &self,
+        request: Request<proto::GetDemonstrationSamplesRequest>,
+    ) -> Result<Response<proto::DemonstrationSamples>, Status> {
+        let (id, query) = samples(request.into_inner()).map_err(status)?;
+        let view = self.app.demonstration_samples(&resource(&id).map_err(status)?, query).await.map_err(status)?;
+        Ok(Response::new(view.into()))
+    }
+
+    async fn patch_demonstration(
+        &self,
+        request: Request<proto::PatchDemonstrationRequest>,
+    ) -> Result<Response<proto::Demonstration>, Status> {
+        let (id, change, revision) = patch(request.into_inner());
+        let id = resource(&id).map_err(status)?;
+        let view = self.app.patch_demonstration(&id, change, revision).await.map_err(status)?;
+        Ok(Response::new(view.into()))
+    }
+
+    async fn delete_demonstration(
+        &self,
+        request: Request<proto::DeleteDemonstrationRequest>,
+    ) -> Result<Response<()>, Status> {
+        let proto::DeleteDemonstrationRequest { id, revision } = request.into_inner();
+        self.app.delete_demonstration(&resource(&id).map_err(status)?, revision).await.map_err(status)?;
+        Ok(Response::new(()))
+    }
+
+    async fn export_demonstration(
+        &self,
+        request: Request<proto::ExportDemonstrationRequest>,
+    ) -> Result<Response<FileStream>, Status> {
+        let proto::ExportDemonstrationRequest { id, format } = request.into_inner();
+        let id = resource(&id).map_err(status)?;
+        let file = self.app.export_demonstration(&id, &format).await.map_err(status)?;
+        Ok(send(file))
     }
 }
 

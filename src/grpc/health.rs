@@ -11,10 +11,11 @@ use tonic_health::pb::health_server::{Health, HealthServer};
 use tonic_health::pb::{HealthCheckRequest, HealthCheckResponse};
 
 /// The server itself and its services.
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 10] = [
     "",
     proto::action_service_server::SERVICE_NAME,
     proto::demonstration_service_server::SERVICE_NAME,
+    proto::experiment_service_server::SERVICE_NAME,
     proto::job_service_server::SERVICE_NAME,
     proto::recognition_service_server::SERVICE_NAME,
     proto::robot_service_server::SERVICE_NAME,

@@ -1,11 +1,9 @@
 //! JobService.
 
-use super::convert::job::{kind, states};
-use super::convert::{id, items, page, text, work};
+use super::convert::{items, job, page, resource, text, work};
 use super::error::status;
 use super::proto;
 use crate::app::App;
-use crate::app::model::JobFilter;
 use futures_util::StreamExt as _;
 use futures_util::stream::BoxStream;
 use proto::job_service_server::JobService;
@@ -22,9 +20,9 @@ impl JobService for Service {
     type WatchJobStream = BoxStream<'static, Result<proto::JobEvent, Status>>;
 
     async fn create_job(&self, request: Request<proto::CreateJobRequest>) -> Result<Response<proto::Job>, Status> {
-        let request = request.into_inner();
-        let work = work::work(request.work).map_err(status)?;
-        let job = self.0.create_job(work, text(request.idempotency_key)).await.map_err(status)?;
+        let proto::CreateJobRequest { work, idempotency_key } = request.into_inner();
+        let work = work::work(work).map_err(status)?;
+        let job = self.0.create_job(work, text(idempotency_key)).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
@@ -39,8 +37,8 @@ impl JobService for Service {
     }
 
     async fn get_job(&self, request: Request<proto::GetJobRequest>) -> Result<Response<proto::Job>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let job = self.0.get_job(&id).await.map_err(status)?;
+        let proto::GetJobRequest { id } = request.into_inner();
+        let job = self.0.get_job(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
@@ -48,20 +46,19 @@ impl JobService for Service {
         &self,
         request: Request<proto::ListJobsRequest>,
     ) -> Result<Response<proto::ListJobsResponse>, Status> {
-        let request = request.into_inner();
-        let filter =
-            JobFilter { states: states(&request.states).map_err(status)?, kind: kind(&request.kind).map_err(status)? };
-        let found = self.0.list_jobs(filter, page(request.page_size, request.page_token)).await.map_err(status)?;
+        let proto::ListJobsRequest { states, kind, page_size, page_token } = request.into_inner();
+        let filter = job::filter(&states, kind).map_err(status)?;
+        let found = self.0.list_jobs(filter, page(page_size, page_token)).await.map_err(status)?;
         let (jobs, next_page_token) = items(found);
         Ok(Response::new(proto::ListJobsResponse { jobs, next_page_token }))
     }
 
     async fn wait_job(&self, request: Request<proto::WaitJobRequest>) -> Result<Response<proto::Job>, Status> {
-        let request = request.into_inner();
-        let id = id(&request.id).map_err(status)?;
-        let timeout_ms = if request.timeout_ms == 0 { DEFAULT_WAIT_MS } else { request.timeout_ms };
+        let proto::WaitJobRequest { id, after_seq, timeout_ms } = request.into_inner();
+        let id = resource(&id).map_err(status)?;
+        let timeout_ms = if timeout_ms == 0 { DEFAULT_WAIT_MS } else { timeout_ms };
         let timeout = Duration::from_millis(u64::from(timeout_ms));
-        let job = self.0.wait_job(&id, request.after_seq, timeout).await.map_err(status)?;
+        let job = self.0.wait_job(&id, after_seq, timeout).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
@@ -69,34 +66,33 @@ impl JobService for Service {
         &self,
         request: Request<proto::WatchJobRequest>,
     ) -> Result<Response<Self::WatchJobStream>, Status> {
-        let request = request.into_inner();
-        let id = id(&request.id).map_err(status)?;
-        let events = self.0.watch_job(&id, request.after_seq).await.map_err(status)?;
+        let proto::WatchJobRequest { id, after_seq } = request.into_inner();
+        let events = self.0.watch_job(&resource(&id).map_err(status)?, after_seq).await.map_err(status)?;
         Ok(Response::new(events.map(|event| event.map(Into::into).map_err(status)).boxed()))
     }
 
     async fn pause_job(&self, request: Request<proto::PauseJobRequest>) -> Result<Response<proto::Job>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let job = self.0.pause_job(&id).await.map_err(status)?;
+        let proto::PauseJobRequest { id } = request.into_inner();
+        let job = self.0.pause_job(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
     async fn resume_job(&self, request: Request<proto::ResumeJobRequest>) -> Result<Response<proto::Job>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let job = self.0.resume_job(&id).await.map_err(status)?;
+        let proto::ResumeJobRequest { id } = request.into_inner();
+        let job = self.0.resume_job(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
     async fn cancel_job(&self, request: Request<proto::CancelJobRequest>) -> Result<Response<proto::Job>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let job = self.0.cancel_job(&id).await.map_err(status)?;
+        let proto::CancelJobRequest { id } = request.into_inner();
+        let job = self.0.cancel_job(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
     async fn clone_job(&self, request: Request<proto::CloneJobRequest>) -> Result<Response<proto::Job>, Status> {
-        let request = request.into_inner();
-        let id = id(&request.id).map_err(status)?;
-        let job = self.0.clone_job(&id, text(request.idempotency_key)).await.map_err(status)?;
+        let proto::CloneJobRequest { id, idempotency_key } = request.into_inner();
+        let id = resource(&id).map_err(status)?;
+        let job = self.0.clone_job(&id, text(idempotency_key)).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 }

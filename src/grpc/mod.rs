@@ -1,4 +1,4 @@
-//! gRPC: one file a service.
+//! gRPC: one file per service.
 //!
 //! # Architecture Invariants
 //! - A method converts, makes one `app` call and converts back: what a use-case means is decided in `app`.
@@ -10,6 +10,8 @@ mod auth;
 mod convert;
 mod demonstrations;
 pub mod error;
+mod experiments;
+mod files;
 mod health;
 mod jobs;
 pub mod proto;
@@ -22,6 +24,7 @@ mod worlds;
 use crate::app::{Access, App};
 use proto::action_service_server::ActionServiceServer;
 use proto::demonstration_service_server::DemonstrationServiceServer;
+use proto::experiment_service_server::ExperimentServiceServer;
 use proto::job_service_server::JobServiceServer;
 use proto::recognition_service_server::RecognitionServiceServer;
 use proto::robot_service_server::RobotServiceServer;
@@ -70,6 +73,7 @@ pub fn routes(app: App, access: Access, settings: &Settings) -> Result<Routes, t
         .add_service(guarded!(RobotServiceServer, robots::Service(app.clone())))
         .add_service(guarded!(WorldServiceServer, worlds::Service(app.clone())))
         .add_service(guarded!(JobServiceServer, jobs::Service(app.clone())))
+        .add_service(guarded!(ExperimentServiceServer, experiments::Service(app.clone())))
         .add_service(guarded!(RunServiceServer, runs::Service(app.clone())))
         .add_service(guarded!(TrajectoryServiceServer, trajectories::Service(app)));
     if settings.reflection {

@@ -1,7 +1,7 @@
 //! RecognitionService.
 
 use super::convert::recognition::{question, request};
-use super::convert::{all, rows};
+use super::convert::{self, all};
 use super::error::status;
 use super::proto;
 use crate::app::App;
@@ -39,11 +39,12 @@ impl RecognitionService for Service {
         let mut parts = message.into_inner();
         let first = parts.message().await?.and_then(|request| request.part);
         let Some(Part::Start(start)) = first else { return Err(status(out_of_order())) };
+        let proto::RecognizeOnlineStart { question, features } = start;
         let session = Session {
             app: self.0.clone(),
             parts,
-            question: start.question.unwrap_or_default(),
-            features: all(start.features),
+            question: question.unwrap_or_default(),
+            features: all(features),
             seen: Vec::new(),
         };
         Ok(Response::new(try_unfold(session, Session::next).boxed()))
@@ -63,14 +64,16 @@ impl Session {
     /// The answer after the next message of samples, or the end.
     async fn next(mut self) -> Result<Option<(proto::Recognition, Self)>, Status> {
         let Some(message) = self.parts.message().await? else { return Ok(None) };
-        let Some(Part::Samples(samples)) = message.part else { return Err(status(out_of_order())) };
-        if self.seen.len() + samples.rows.len() > MAX_ROWS {
+        let Some(Part::Samples(proto::RecognizeOnlineSamples { rows })) = message.part else {
+            return Err(status(out_of_order()));
+        };
+        if self.seen.len() + rows.len() > MAX_ROWS {
             let text = format!("an online recognition holds at most {MAX_ROWS} rows: start another");
             return Err(status(AppError::new(ErrorKind::TooLarge, "too_many_rows", text)));
         }
-        self.seen.extend(rows("/rows", samples.rows).map_err(status)?);
+        self.seen.extend(convert::rows("/rows", rows).map_err(status)?);
         let observed = Observed::Rows { features: self.features.clone(), rows: self.seen.clone() };
-        let wanted = question(&self.question, observed).map_err(status)?;
+        let wanted = question(self.question.clone(), observed).map_err(status)?;
         let view = self.app.recognize(wanted).await.map_err(status)?;
         Ok(Some((view.into(), self)))
     }

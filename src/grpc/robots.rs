@@ -1,6 +1,6 @@
 //! RobotService.
 
-use super::convert::{id, items, page, robot};
+use super::convert::{items, page, resource, robot};
 use super::error::status;
 use super::proto;
 use crate::app::App;
@@ -17,23 +17,38 @@ impl RobotService for Service {
         request: Request<proto::CreateRobotRequest>,
     ) -> Result<Response<proto::Robot>, Status> {
         let wanted = robot::create(request.into_inner()).map_err(status)?;
-        let view = self.0.create_robot(wanted).await.map_err(status)?;
-        Ok(Response::new(view.into()))
+        let robot = self.0.create_robot(wanted).await.map_err(status)?;
+        Ok(Response::new(robot.into()))
     }
 
     async fn get_robot(&self, request: Request<proto::GetRobotRequest>) -> Result<Response<proto::Robot>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let view = self.0.get_robot(&id).await.map_err(status)?;
-        Ok(Response::new(view.into()))
+        let proto::GetRobotRequest { id } = request.into_inner();
+        let robot = self.0.get_robot(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(robot.into()))
     }
 
     async fn list_robots(
         &self,
         request: Request<proto::ListRobotsRequest>,
     ) -> Result<Response<proto::ListRobotsResponse>, Status> {
-        let request = request.into_inner();
-        let found = self.0.list_robots(page(request.page_size, request.page_token)).await.map_err(status)?;
+        let proto::ListRobotsRequest { page_size, page_token } = request.into_inner();
+        let found = self.0.list_robots(page(page_size, page_token)).await.map_err(status)?;
         let (robots, next_page_token) = items(found);
         Ok(Response::new(proto::ListRobotsResponse { robots, next_page_token }))
+    }
+
+    async fn get_robot_urdf(
+        &self,
+        request: Request<proto::GetRobotUrdfRequest>,
+    ) -> Result<Response<proto::RobotUrdf>, Status> {
+        let proto::GetRobotUrdfRequest { id } = request.into_inner();
+        let urdf = self.0.robot_urdf(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(proto::RobotUrdf { urdf }))
+    }
+
+    async fn delete_robot(&self, request: Request<proto::DeleteRobotRequest>) -> Result<Response<()>, Status> {
+        let proto::DeleteRobotRequest { id } = request.into_inner();
+        self.0.delete_robot(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(()))
     }
 }

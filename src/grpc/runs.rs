@@ -1,6 +1,7 @@
 //! RunService.
 
-use super::convert::{id, items, page, reference};
+use super::convert::trajectory::split;
+use super::convert::{items, page, reference, resource};
 use super::error::status;
 use super::proto;
 use crate::app::App;
@@ -14,22 +15,22 @@ pub struct Service(pub App);
 #[tonic::async_trait]
 impl RunService for Service {
     async fn get_run(&self, request: Request<proto::GetRunRequest>) -> Result<Response<proto::Run>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let view = self.0.get_run(&id).await.map_err(status)?;
-        Ok(Response::new(view.into()))
+        let proto::GetRunRequest { id } = request.into_inner();
+        let run = self.0.get_run(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(run.into()))
     }
 
     async fn list_runs(
         &self,
         request: Request<proto::ListRunsRequest>,
     ) -> Result<Response<proto::ListRunsResponse>, Status> {
-        let request = request.into_inner();
-        let job = match request.job.as_str() {
+        let proto::ListRunsRequest { job, page_size, page_token } = request.into_inner();
+        let job = match job.as_str() {
             "" => None,
             id => Some(reference("/job", id).map_err(status)?),
         };
-        let page = page(request.page_size, request.page_token);
-        let (runs, next_page_token) = items(self.0.list_runs(RunFilter { job }, page).await.map_err(status)?);
+        let found = self.0.list_runs(RunFilter { job }, page(page_size, page_token)).await.map_err(status)?;
+        let (runs, next_page_token) = items(found);
         Ok(Response::new(proto::ListRunsResponse { runs, next_page_token }))
     }
 
@@ -37,8 +38,8 @@ impl RunService for Service {
         &self,
         request: Request<proto::GetRunGoalsRequest>,
     ) -> Result<Response<proto::RunGoals>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let goals = self.0.run_goals(&id).await.map_err(status)?;
+        let proto::GetRunGoalsRequest { id } = request.into_inner();
+        let goals = self.0.run_goals(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(goals.into()))
     }
 
@@ -46,8 +47,26 @@ impl RunService for Service {
         &self,
         request: Request<proto::GetRunTrialsRequest>,
     ) -> Result<Response<proto::RunTrials>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let trials = self.0.run_trials(&id).await.map_err(status)?;
+        let proto::GetRunTrialsRequest { id } = request.into_inner();
+        let trials = self.0.run_trials(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(trials.into()))
+    }
+
+    async fn get_run_convergence(
+        &self,
+        request: Request<proto::GetRunConvergenceRequest>,
+    ) -> Result<Response<proto::Convergence>, Status> {
+        let proto::GetRunConvergenceRequest { id, max_points } = request.into_inner();
+        let curve = self.0.run_convergence(&resource(&id).map_err(status)?, max_points).await.map_err(status)?;
+        Ok(Response::new(curve.into()))
+    }
+
+    async fn get_run_trajectory(
+        &self,
+        request: Request<proto::GetRunTrajectoryRequest>,
+    ) -> Result<Response<proto::Trajectory>, Status> {
+        let proto::GetRunTrajectoryRequest { id } = request.into_inner();
+        let trajectory = self.0.run_trajectory(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(split(trajectory).0))
     }
 }

@@ -1,8 +1,9 @@
 //! TrajectoryService.
 
-use super::convert::id;
+use super::convert::resource;
 use super::convert::trajectory::{chunks, split};
 use super::error::status;
+use super::files::{FileStream, send};
 use super::proto;
 use crate::app::App;
 use crate::app::model::{AppError, ErrorKind};
@@ -19,14 +20,15 @@ pub struct Service(pub App);
 
 #[tonic::async_trait]
 impl TrajectoryService for Service {
+    type ExportTrajectoryStream = FileStream;
     type StreamTrajectoryStream = BoxStream<'static, Result<proto::TrajectoryChunk, Status>>;
 
     async fn get_trajectory(
         &self,
         request: Request<proto::GetTrajectoryRequest>,
     ) -> Result<Response<proto::Trajectory>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let view = self.0.get_trajectory(&id).await.map_err(status)?;
+        let proto::GetTrajectoryRequest { id } = request.into_inner();
+        let view = self.0.get_trajectory(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(split(view).0))
     }
 
@@ -34,16 +36,25 @@ impl TrajectoryService for Service {
         &self,
         request: Request<proto::StreamTrajectoryRequest>,
     ) -> Result<Response<Self::StreamTrajectoryStream>, Status> {
-        let request = request.into_inner();
-        let id = id(&request.id).map_err(status)?;
-        let batch = batch(request.batch).map_err(status)?;
+        let proto::StreamTrajectoryRequest { id, from_index, batch } = request.into_inner();
+        let id = resource(&id).map_err(status)?;
+        let size = batch_size(batch).map_err(status)?;
         let (_, points) = split(self.0.get_trajectory(&id).await.map_err(status)?);
-        let from = usize::try_from(request.from_index).unwrap_or(usize::MAX);
-        Ok(Response::new(iter(chunks(points, from, batch)).map(Ok).boxed()))
+        let from = usize::try_from(from_index).unwrap_or(usize::MAX);
+        Ok(Response::new(iter(chunks(points, from, size)).map(Ok).boxed()))
+    }
+
+    async fn export_trajectory(
+        &self,
+        request: Request<proto::ExportTrajectoryRequest>,
+    ) -> Result<Response<FileStream>, Status> {
+        let proto::ExportTrajectoryRequest { id, format } = request.into_inner();
+        let file = self.0.export_trajectory(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
+        Ok(send(file))
     }
 }
 
-fn batch(asked: u32) -> Result<usize, AppError> {
+fn batch_size(asked: u32) -> Result<usize, AppError> {
     match asked {
         0 => Ok(DEFAULT_BATCH as usize),
         1..=MAX_BATCH => Ok(asked as usize),

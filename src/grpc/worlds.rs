@@ -1,6 +1,6 @@
 //! WorldService.
 
-use super::convert::{id, items, page, world};
+use super::convert::{items, page, resource, world};
 use super::error::status;
 use super::proto;
 use crate::app::App;
@@ -17,23 +17,29 @@ impl WorldService for Service {
         request: Request<proto::CreateWorldRequest>,
     ) -> Result<Response<proto::World>, Status> {
         let wanted = world::create(request.into_inner()).map_err(status)?;
-        let view = self.0.create_world(wanted).await.map_err(status)?;
-        Ok(Response::new(view.into()))
+        let world = self.0.create_world(wanted).await.map_err(status)?;
+        Ok(Response::new(world.into()))
     }
 
     async fn get_world(&self, request: Request<proto::GetWorldRequest>) -> Result<Response<proto::World>, Status> {
-        let id = id(&request.into_inner().id).map_err(status)?;
-        let view = self.0.get_world(&id).await.map_err(status)?;
-        Ok(Response::new(view.into()))
+        let proto::GetWorldRequest { id } = request.into_inner();
+        let world = self.0.get_world(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(world.into()))
     }
 
     async fn list_worlds(
         &self,
         request: Request<proto::ListWorldsRequest>,
     ) -> Result<Response<proto::ListWorldsResponse>, Status> {
-        let request = request.into_inner();
-        let found = self.0.list_worlds(page(request.page_size, request.page_token)).await.map_err(status)?;
+        let proto::ListWorldsRequest { page_size, page_token } = request.into_inner();
+        let found = self.0.list_worlds(page(page_size, page_token)).await.map_err(status)?;
         let (worlds, next_page_token) = items(found);
         Ok(Response::new(proto::ListWorldsResponse { worlds, next_page_token }))
+    }
+
+    async fn delete_world(&self, request: Request<proto::DeleteWorldRequest>) -> Result<Response<()>, Status> {
+        let proto::DeleteWorldRequest { id } = request.into_inner();
+        self.0.delete_world(&resource(&id).map_err(status)?).await.map_err(status)?;
+        Ok(Response::new(()))
     }
 }

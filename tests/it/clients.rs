@@ -3,15 +3,21 @@
 use super::server::Server;
 use cgda::grpc::proto::action_service_client::ActionServiceClient;
 use cgda::grpc::proto::demonstration_service_client::DemonstrationServiceClient;
+use cgda::grpc::proto::experiment_service_client::ExperimentServiceClient;
 use cgda::grpc::proto::job_service_client::JobServiceClient;
 use cgda::grpc::proto::recognition_service_client::RecognitionServiceClient;
 use cgda::grpc::proto::robot_service_client::RobotServiceClient;
 use cgda::grpc::proto::run_service_client::RunServiceClient;
 use cgda::grpc::proto::trajectory_service_client::TrajectoryServiceClient;
 use cgda::grpc::proto::world_service_client::WorldServiceClient;
+use prost::Message as _;
+use prost_reflect::bytes::{Buf as _, BufMut as _};
+use prost_reflect::{DynamicMessage, MethodDescriptor};
 use reqwest::{Method, RequestBuilder};
 use serde_json::Value;
 use tonic::Status;
+use tonic::codec::{Codec, DecodeBuf, Decoder, EncodeBuf, Encoder};
+use tonic::codegen::http::uri::PathAndQuery;
 use tonic::metadata::{Ascii, MetadataValue};
 use tonic::service::Interceptor;
 use tonic::service::interceptor::InterceptedService;
@@ -102,13 +108,53 @@ impl Interceptor for Token {
 
 type Guarded = InterceptedService<Channel, Token>;
 
+/// Messages as bytes, for calls by description.
+#[derive(Default)]
+struct Bytes;
+
+impl Codec for Bytes {
+    type Encode = Vec<u8>;
+    type Decode = Vec<u8>;
+    type Encoder = Self;
+    type Decoder = Self;
+
+    fn encoder(&mut self) -> Self {
+        Self
+    }
+
+    fn decoder(&mut self) -> Self {
+        Self
+    }
+}
+
+impl Encoder for Bytes {
+    type Item = Vec<u8>;
+    type Error = Status;
+
+    fn encode(&mut self, item: Vec<u8>, buffer: &mut EncodeBuf<'_>) -> Result<(), Status> {
+        buffer.put_slice(&item);
+        Ok(())
+    }
+}
+
+impl Decoder for Bytes {
+    type Item = Vec<u8>;
+    type Error = Status;
+
+    fn decode(&mut self, buffer: &mut DecodeBuf<'_>) -> Result<Option<Vec<u8>>, Status> {
+        Ok(Some(buffer.copy_to_bytes(buffer.remaining()).to_vec()))
+    }
+}
+
 /// gRPC client.
 pub struct Grpc {
+    guarded: Guarded,
     pub demonstrations: DemonstrationServiceClient<Guarded>,
     pub actions: ActionServiceClient<Guarded>,
     pub recognition: RecognitionServiceClient<Guarded>,
     pub robots: RobotServiceClient<Guarded>,
     pub worlds: WorldServiceClient<Guarded>,
+    pub experiments: ExperimentServiceClient<Guarded>,
     pub jobs: JobServiceClient<Guarded>,
     pub runs: RunServiceClient<Guarded>,
     pub trajectories: TrajectoryServiceClient<Guarded>,
@@ -125,14 +171,31 @@ impl Grpc {
         let token = Token(format!("Bearer {token}").parse().unwrap());
         let guarded = InterceptedService::new(channel, token);
         Self {
+            guarded: guarded.clone(),
             demonstrations: DemonstrationServiceClient::new(guarded.clone()),
             actions: ActionServiceClient::new(guarded.clone()),
             recognition: RecognitionServiceClient::new(guarded.clone()),
             robots: RobotServiceClient::new(guarded.clone()),
             worlds: WorldServiceClient::new(guarded.clone()),
+            experiments: ExperimentServiceClient::new(guarded.clone()),
             jobs: JobServiceClient::new(guarded.clone()),
             runs: RunServiceClient::new(guarded.clone()),
             trajectories: TrajectoryServiceClient::new(guarded),
         }
+    }
+
+    /// Calls an rpc by its description: one message, or all that the server streams.
+    pub async fn call(&self, rpc: &MethodDescriptor, request: DynamicMessage) -> Result<Vec<DynamicMessage>, Status> {
+        let path = format!("/{}/{}", rpc.parent_service().full_name(), rpc.name());
+        let mut client = tonic::client::Grpc::new(self.guarded.clone());
+        client.ready().await.unwrap();
+        let request = tonic::Request::new(request.encode_to_vec());
+        let path = PathAndQuery::try_from(path).unwrap();
+        let mut stream = client.server_streaming(request, path, Bytes).await?.into_inner();
+        let mut messages = Vec::new();
+        while let Some(bytes) = stream.message().await? {
+            messages.push(DynamicMessage::decode(rpc.output(), bytes.as_slice()).unwrap());
+        }
+        Ok(messages)
     }
 }

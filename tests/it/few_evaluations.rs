@@ -50,7 +50,7 @@ async fn a_model_job_by_its_name_gives_the_same_over_http_and_grpc() {
         robot: inputs.robot.clone(),
         world: inputs.world.clone(),
         execution: Some(proto::ExecutionSpec {
-            method: Some(proto::execution_spec::Method::MethodName("model".to_owned())),
+            method_choice: Some(proto::execution_spec::MethodChoice::MethodName("model".to_owned())),
             tolerance: Some(27.4),
             ..Default::default()
         }),

@@ -180,8 +180,13 @@ pub enum HandlingSpec {
     Penalty(PenaltySpec),
 }
 
+impl HandlingSpec {
+    /// Attempts unless another number is given.
+    pub const MAX_ATTEMPTS: u32 = 1000;
+}
+
 fn attempts() -> u32 {
-    1000
+    HandlingSpec::MAX_ATTEMPTS
 }
 
 impl Default for HandlingSpec {
@@ -270,26 +275,43 @@ pub enum PenaltyKind {
     },
 }
 
+impl PenaltyKind {
+    /// Fitness of an infeasible candidate under `death`, features' unit, unless another is given.
+    pub const DEATH_VALUE: f64 = 1e12;
+    /// Exponent of violations and growth with the generation unless others are given.
+    pub const EXPONENT: f64 = 2.0;
+    /// Generations an adaptive penalty looks at unless another number is given.
+    pub const WINDOW: u32 = 3;
+    /// Divisor of an adaptive penalty unless another is given.
+    pub const RELAX: f64 = 2.0;
+    /// Factor of an adaptive penalty unless another is given.
+    pub const TIGHTEN: f64 = 3.0;
+    /// Factor of an annealing penalty's temperature unless another is given.
+    pub const COOLING: f64 = 0.8;
+    /// Least temperature of an annealing penalty unless another is given.
+    pub const FROZEN: f64 = 1e-9;
+}
+
 fn death() -> f64 {
-    1e12
+    PenaltyKind::DEATH_VALUE
 }
 fn two() -> f64 {
-    2.0
+    PenaltyKind::EXPONENT
 }
 fn three() -> u32 {
-    3
+    PenaltyKind::WINDOW
 }
 fn relax() -> f64 {
-    2.0
+    PenaltyKind::RELAX
 }
 fn tighten() -> f64 {
-    3.0
+    PenaltyKind::TIGHTEN
 }
 fn cooling() -> f64 {
-    0.8
+    PenaltyKind::COOLING
 }
 fn frozen() -> f64 {
-    1e-9
+    PenaltyKind::FROZEN
 }
 
 /// What happens to a goal for which no feasible candidate was found.

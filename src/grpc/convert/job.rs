@@ -1,47 +1,27 @@
 //! Jobs and how far they are.
 
-use super::all;
+use super::enumeration::Enumeration as _;
+use super::{all, time};
 use crate::app::model::{
-    AppError, CostEstimate, ErrorKind, GoalProgress, JobFailure, JobKind, JobProgress, JobResult, JobView,
+    AppError, CostEstimate, ErrorKind, GoalProgress, JobFailure, JobFilter, JobKind, JobProgress, JobResult, JobView,
     TrialProgress, Validation,
 };
 use crate::framework::job::State;
 use crate::grpc::proto;
-use proto::JobState;
 
-impl From<State> for JobState {
-    fn from(state: State) -> Self {
-        match state {
-            State::Queued => Self::Queued,
-            State::Preparing => Self::Preparing,
-            State::Running => Self::Running,
-            State::Pausing => Self::Pausing,
-            State::Paused => Self::Paused,
-            State::Interrupted => Self::Interrupted,
-            State::Cancelling => Self::Cancelling,
-            State::Cancelled => Self::Cancelled,
-            State::Succeeded => Self::Succeeded,
-            State::Failed => Self::Failed,
-        }
-    }
-}
-
-/// States to look for.
-pub fn states(values: &[i32]) -> Result<Vec<State>, AppError> {
+/// States and kind to look for.
+///
+/// # Errors
+/// `Malformed` for a number without a state or a kind.
+pub fn filter(states: &[i32], kind: i32) -> Result<JobFilter, AppError> {
     let state = |value: &i32| {
-        let found = State::ALL.into_iter().find(|state| JobState::from(*state) as i32 == *value);
-        found.ok_or_else(|| wrong(&format!("{value} is no state of a job")))
+        let found = State::read("/states", *value).map_err(|error| wrong(&error.message))?;
+        found.ok_or_else(|| wrong("states names an unspecified state: leave it out"))
     };
-    values.iter().map(state).collect()
-}
-
-/// A kind to look for.
-pub fn kind(text: &str) -> Result<Option<JobKind>, AppError> {
-    if text.is_empty() {
-        return Ok(None);
-    }
-    let kind = serde_json::from_value(serde_json::Value::from(text));
-    kind.map(Some).map_err(|_| wrong(&format!("{text:?} is no kind of job")))
+    Ok(JobFilter {
+        states: states.iter().map(state).collect::<Result<_, _>>()?,
+        kind: JobKind::read("/kind", kind).map_err(|error| wrong(&error.message))?,
+    })
 }
 
 fn wrong(message: &str) -> AppError {
@@ -50,40 +30,70 @@ fn wrong(message: &str) -> AppError {
 
 impl From<JobView> for proto::Job {
     fn from(view: JobView) -> Self {
+        let JobView {
+            id,
+            kind,
+            name,
+            state,
+            state_reason,
+            state_since,
+            attempt,
+            progress,
+            request,
+            result,
+            failure,
+            last_seq,
+            created_at,
+            started_at,
+            finished_at,
+        } = view;
         Self {
-            id: view.id.into(),
-            kind: view.kind.as_str().to_owned(),
-            name: view.name,
-            state: JobState::from(view.state) as i32,
-            state_reason: view.state_reason,
-            state_since_ms: view.state_since.0,
-            attempt: view.attempt,
-            progress: Some(view.progress.into()),
-            work: Some(view.request.into()),
-            result: Some(view.result.into()),
-            failure: view.failure.map(Into::into),
-            last_seq: view.last_seq,
-            created_at_ms: view.created_at.0,
-            started_at_ms: view.started_at.map(|time| time.0),
-            finished_at_ms: view.finished_at.map(|time| time.0),
+            id: id.into(),
+            kind: kind.number(),
+            name,
+            state: state.number(),
+            state_reason,
+            state_since: Some(time(state_since)),
+            attempt,
+            progress: Some(progress.into()),
+            request: Some(request.into()),
+            result: Some(result.into()),
+            failure: failure.map(Into::into),
+            last_seq,
+            created_at: Some(time(created_at)),
+            started_at: started_at.map(time),
+            finished_at: finished_at.map(time),
         }
     }
 }
 
 impl From<JobProgress> for proto::JobProgress {
     fn from(progress: JobProgress) -> Self {
+        let JobProgress {
+            fraction,
+            repetition,
+            repetitions,
+            goal_index,
+            goals,
+            evaluations,
+            goal_evaluations,
+            total_evaluations,
+            discrepancy,
+            finished_goals,
+            trials,
+        } = progress;
         Self {
-            fraction: progress.fraction,
-            repetition: progress.repetition,
-            repetitions: progress.repetitions,
-            goal_index: progress.goal_index,
-            goals: progress.goals,
-            evaluations: progress.evaluations,
-            goal_evaluations: progress.goal_evaluations,
-            total_evaluations: progress.total_evaluations,
-            discrepancy: progress.discrepancy,
-            finished_goals: all(progress.finished_goals),
-            trials: all(progress.trials),
+            fraction,
+            repetition,
+            repetitions,
+            goal_index,
+            goals,
+            evaluations,
+            goal_evaluations,
+            total_evaluations,
+            discrepancy,
+            finished_goals: all(finished_goals),
+            trials: all(trials),
         }
     }
 }
@@ -97,72 +107,86 @@ impl From<TrialProgress> for proto::TrialProgress {
 
 impl From<GoalProgress> for proto::GoalProgress {
     fn from(goal: GoalProgress) -> Self {
+        let GoalProgress { repetition, index, evaluations, discrepancy, stop_reason, joints, observation, residual } =
+            goal;
         Self {
-            repetition: goal.repetition,
-            index: goal.index,
-            evaluations: goal.evaluations,
-            discrepancy: goal.discrepancy,
-            stop_reason: super::run::stop_reason(goal.stop_reason),
-            joints: goal.joints,
-            observation: goal.observation,
-            residual: goal.residual,
+            repetition,
+            index,
+            evaluations,
+            discrepancy,
+            stop_reason: stop_reason.number(),
+            joints,
+            observation,
+            residual,
         }
     }
 }
 
 impl From<JobResult> for proto::JobResult {
     fn from(result: JobResult) -> Self {
+        let JobResult { action, runs, experiment } = result;
         Self {
-            action: result.action.map(Into::into),
-            runs: result.runs.into_iter().map(String::from).collect(),
-            experiment: result.experiment.map(Into::into),
+            action: action.map(Into::into),
+            runs: runs.into_iter().map(String::from).collect(),
+            experiment: experiment.map(Into::into),
         }
     }
 }
 
 impl From<JobFailure> for proto::JobFailure {
     fn from(failure: JobFailure) -> Self {
-        Self { code: failure.code, message: failure.message }
+        let JobFailure { code, message } = failure;
+        Self { code, message }
     }
 }
 
 impl From<Validation> for proto::JobValidation {
     fn from(validation: Validation) -> Self {
-        Self {
-            valid: validation.valid,
-            errors: all(validation.errors),
-            estimate: validation.estimate.map(Into::into),
-            chosen: validation.chosen.map(Into::into),
-        }
+        let Validation { valid, errors, estimate, chosen } = validation;
+        Self { valid, errors: all(errors), estimate: estimate.map(Into::into), chosen: chosen.map(Into::into) }
     }
 }
 
 impl From<CostEstimate> for proto::CostEstimate {
     fn from(estimate: CostEstimate) -> Self {
-        Self {
-            evaluations: estimate.evaluations,
-            simulated_s: estimate.simulated_s,
-            robot_s: estimate.robot_s,
-            basis: estimate.basis,
-            text: estimate.text,
-        }
+        let CostEstimate { evaluations, simulated_s, robot_s, text, basis } = estimate;
+        Self { evaluations, simulated_s, robot_s, text, basis }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::model::FieldError;
 
     #[test]
-    fn every_state_has_its_own_number_and_the_same_name() {
-        let numbers: Vec<i32> = State::ALL.iter().map(|state| JobState::from(*state) as i32).collect();
-        assert_eq!(states(&numbers).unwrap(), State::ALL);
-        for state in State::ALL {
-            let json = serde_json::to_value(state).unwrap();
-            let name = JobState::from(state).as_str_name();
-            assert_eq!(name.strip_prefix("JOB_STATE_"), json.as_str());
+    fn a_filter_names_states_and_a_kind_or_any() {
+        let numbers: Vec<i32> = State::ALL.iter().map(|state| state.number()).collect();
+        let found = filter(&numbers, JobKind::Execution.number()).unwrap();
+        assert_eq!(found, JobFilter { states: State::ALL.to_vec(), kind: Some(JobKind::Execution) });
+        assert_eq!(filter(&[], 0).unwrap(), JobFilter::default());
+        for (states, kind) in [(&[0][..], 0), (&[99], 0), (&[], 99)] {
+            assert_eq!(filter(states, kind).unwrap_err().kind, ErrorKind::Malformed);
         }
-        assert!(states(&[0]).is_err() && states(&[99]).is_err());
-        assert!(kind("dance").is_err() && kind("").unwrap().is_none());
+    }
+
+    #[test]
+    fn a_dry_run_keeps_its_errors_and_its_cost() {
+        let validation = Validation {
+            valid: false,
+            errors: vec![FieldError::new("/seed", "out_of_range", "too large")],
+            estimate: Some(CostEstimate {
+                evaluations: 1,
+                simulated_s: 2.0,
+                robot_s: 3.0,
+                text: "text".to_owned(),
+                basis: "basis".to_owned(),
+            }),
+            chosen: None,
+        };
+        let message = proto::JobValidation::from(validation);
+        assert_eq!(message.errors[0].pointer, "/seed");
+        let estimate = message.estimate.unwrap();
+        assert_eq!((estimate.robot_s, estimate.text.as_str(), estimate.basis.as_str()), (3.0, "text", "basis"));
     }
 }

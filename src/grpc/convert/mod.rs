@@ -1,28 +1,36 @@
-//! Between messages and the service's own types: one file a resource; here what several share.
+//! Between messages and the service's own types: one file per resource; here what several share.
 //!
 //! # Architecture Invariants
+//! - A conversion takes its source apart without `..` and names every field of its result: a new field does not compile
+//!   until it is converted.
 //! - A message is checked where JSON would have been: ids, enumerations, lengths of vectors, finite numbers.
-//! - What is wrong is named by the JSON pointer the same field has over HTTP.
+//! - An error names the JSON pointer that the same field has over HTTP.
 
-pub mod action;
+mod action;
+mod constraint;
 pub mod demonstration;
-pub mod event;
+mod enumeration;
+mod event;
+pub mod experiment;
+mod experiment_view;
+pub mod file;
 pub mod job;
+mod json;
+mod method;
 pub mod recognition;
 pub mod robot;
-pub mod run;
+mod run;
 pub mod trajectory;
 pub mod work;
 pub mod world;
 
 use super::proto;
-use crate::app::model::{AppError, ErrorKind, FieldError, IdError, Page, PageQuery};
+use crate::app::model::{AppError, ErrorKind, FieldError, IdError, Page, PageQuery, Timestamp};
 use crate::framework::Feature;
-use crate::framework::recognition::Metric;
 use std::str::FromStr;
 
-/// The id that names the resource of a call; one that can be nobody's is not found.
-pub fn id<T: FromStr<Err = IdError>>(text: &str) -> Result<T, AppError> {
+/// The id that names the resource of a call; a malformed one is not found, exactly like an unknown one.
+pub fn resource<T: FromStr<Err = IdError>>(text: &str) -> Result<T, AppError> {
     text.parse().map_err(|error: IdError| AppError::new(ErrorKind::NotFound, "not_found", error.to_string()))
 }
 
@@ -36,7 +44,7 @@ pub fn references<T: FromStr<Err = IdError>>(pointer: &str, texts: &[String]) ->
     texts.iter().enumerate().map(|(i, text)| reference(&format!("{pointer}/{i}"), text)).collect()
 }
 
-/// A message that must be there.
+/// A message that is required.
 pub fn required<T>(pointer: &str, value: Option<T>) -> Result<T, AppError> {
     value.ok_or_else(|| AppError::field(pointer, "missing", "this field is required"))
 }
@@ -49,7 +57,7 @@ pub fn finite(pointer: &str, value: f64) -> Result<f64, AppError> {
     Err(AppError::field(pointer, "non_finite", format!("{value} is not a finite number")))
 }
 
-/// A number that JSON could hold, or none.
+/// A number that JSON could hold, if there is one.
 pub fn finite_or_none(pointer: &str, value: Option<f64>) -> Result<Option<f64>, AppError> {
     value.map(|value| finite(pointer, value)).transpose()
 }
@@ -85,46 +93,36 @@ pub fn list<T>(values: Vec<T>) -> Option<Vec<T>> {
     if values.is_empty() { None } else { Some(values) }
 }
 
-/// A page of a list; 0 is no size.
+/// A page of a list; a size of 0 is absent.
 pub fn page(page_size: u32, page_token: String) -> PageQuery {
     PageQuery { page_size: if page_size == 0 { None } else { Some(page_size) }, page_token: text(page_token) }
 }
 
 /// The items and the token of a page.
 pub fn items<T, M: From<T>>(page: Page<T>) -> (Vec<M>, String) {
-    (page.items.into_iter().map(M::from).collect(), page.next_page_token)
+    let Page { items, next_page_token } = page;
+    (all(items), next_page_token)
 }
 
-/// The metric, or the default.
-pub fn metric(pointer: &str, value: i32) -> Result<Metric, AppError> {
-    match proto::Metric::try_from(value) {
-        Ok(proto::Metric::Unspecified) => Ok(Metric::default()),
-        Ok(proto::Metric::SumOfFeatures) => Ok(Metric::SumOfFeatures),
-        Ok(proto::Metric::Multivariate) => Ok(Metric::Multivariate),
-        Ok(proto::Metric::Aquila) => Ok(Metric::Aquila),
-        Err(_) => Err(AppError::field(pointer, "invalid_value", format!("{value} is no metric"))),
-    }
-}
-
-impl From<Metric> for proto::Metric {
-    fn from(metric: Metric) -> Self {
-        match metric {
-            Metric::SumOfFeatures => Self::SumOfFeatures,
-            Metric::Multivariate => Self::Multivariate,
-            Metric::Aquila => Self::Aquila,
-        }
-    }
+/// A point in time.
+pub fn time(time: Timestamp) -> prost_types::Timestamp {
+    let Timestamp(ms) = time;
+    // 0 to 999 ms
+    let nanos = i32::try_from(ms.rem_euclid(1000)).unwrap_or_default() * 1_000_000;
+    prost_types::Timestamp { seconds: ms.div_euclid(1000), nanos }
 }
 
 impl From<Feature> for proto::Feature {
     fn from(feature: Feature) -> Self {
-        Self { name: feature.name, unit: feature.unit }
+        let Feature { name, unit } = feature;
+        Self { name, unit }
     }
 }
 
 impl From<proto::Feature> for Feature {
     fn from(feature: proto::Feature) -> Self {
-        Self { name: feature.name, unit: feature.unit }
+        let proto::Feature { name, unit } = feature;
+        Self { name, unit }
     }
 }
 
@@ -134,9 +132,10 @@ impl From<Vec<f64>> for proto::Row {
     }
 }
 
-impl From<FieldError> for proto::Finding {
+impl From<FieldError> for proto::FieldError {
     fn from(error: FieldError) -> Self {
-        Self { pointer: error.pointer, code: error.code, detail: error.detail }
+        let FieldError { pointer, code, detail } = error;
+        Self { pointer, code, detail }
     }
 }
 
@@ -159,19 +158,19 @@ mod tests {
         }
         assert!(triple("/origin_m", &[0.0, 1.0]).is_err());
         assert_eq!(format!("{:?}", triple("/origin_m", &[0.0, 1.0, -2.0]).unwrap()), "[0.0, 1.0, -2.0]");
-        assert_eq!(metric("/metric", 99).unwrap_err().kind, ErrorKind::Invalid);
     }
 
     #[test]
     fn an_id_of_a_call_is_not_found_and_one_in_a_request_is_invalid() {
-        assert_eq!(id::<JobId>("nobody").unwrap_err().kind, ErrorKind::NotFound);
+        assert_eq!(resource::<JobId>("nobody").unwrap_err().kind, ErrorKind::NotFound);
         assert_eq!(reference::<JobId>("/job", "nobody").unwrap_err().kind, ErrorKind::Invalid);
     }
 
     #[test]
-    fn every_metric_survives() {
-        for value in [Metric::SumOfFeatures, Metric::Multivariate, Metric::Aquila] {
-            assert_eq!(metric("", proto::Metric::from(value) as i32).unwrap(), value);
+    fn a_time_before_1970_has_a_positive_fraction() {
+        for (ms, seconds, nanos) in [(0, 0, 0), (1_500, 1, 500_000_000), (-1, -1, 999_000_000), (-1_000, -1, 0)] {
+            let found = time(Timestamp(ms));
+            assert_eq!((found.seconds, found.nanos), (seconds, nanos));
         }
     }
 }

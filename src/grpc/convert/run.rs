@@ -1,80 +1,214 @@
 //! Runs.
 
-use super::all;
-use crate::app::model::{RunGoal, RunGoals, RunTrials, RunView};
-use crate::framework::method::per_goal::StopReason;
+use super::enumeration::Enumeration as _;
+use super::{all, time};
+use crate::app::model::{Convergence, ConvergencePoint, RunGoal, RunGoals, RunTrials, RunView};
+use crate::framework::method::per_goal::Tally;
+use crate::framework::method::whole_run::Trial;
 use crate::grpc::proto;
 
 impl From<RunView> for proto::Run {
     fn from(view: RunView) -> Self {
+        let RunView {
+            id,
+            job,
+            repetition,
+            action,
+            robot,
+            world,
+            method,
+            metric,
+            seed,
+            evaluations,
+            discrepancy,
+            true_discrepancy,
+            valid,
+            provenance,
+            painted_percent,
+            goals,
+            digest,
+            trajectory,
+            trajectory_problem,
+            created_at,
+        } = view;
         Self {
-            id: view.id.into(),
-            job: view.job.into(),
-            repetition: view.repetition,
-            action: view.action.into(),
-            robot: view.robot.into(),
-            world: view.world.into(),
-            method: view.method,
-            metric: proto::Metric::from(view.metric) as i32,
-            seed: view.seed,
-            evaluations: view.evaluations,
-            discrepancy: view.discrepancy,
-            painted_percent: view.painted_percent,
-            goals: view.goals,
-            digest: view.digest,
-            trajectory: view.trajectory.map(Into::into),
-            trajectory_problem: view.trajectory_problem,
-            created_at_ms: view.created_at.0,
+            id: id.into(),
+            job: job.into(),
+            repetition,
+            action: action.into(),
+            robot: robot.into(),
+            world: world.into(),
+            method,
+            metric: metric.number(),
+            seed,
+            evaluations,
+            discrepancy,
+            true_discrepancy,
+            valid,
+            provenance: Some(provenance.into()),
+            painted_percent,
+            goals,
+            digest,
+            trajectory: trajectory.map(Into::into),
+            trajectory_problem,
+            created_at: Some(time(created_at)),
         }
+    }
+}
+
+impl From<Tally> for proto::Tally {
+    fn from(tally: Tally) -> Self {
+        let Tally { simulated, real, inherited, granule, penalised, worsened, rejected, repaired } = tally;
+        Self { simulated, real, inherited, granule, penalised, worsened, rejected, repaired }
     }
 }
 
 impl From<RunGoals> for proto::RunGoals {
     fn from(view: RunGoals) -> Self {
+        let RunGoals { run, features, joint_names, goals } = view;
+        Self { run: run.into(), features: all(features), joint_names, goals: all(goals) }
+    }
+}
+
+impl From<RunGoal> for proto::RunGoal {
+    fn from(view: RunGoal) -> Self {
+        let RunGoal {
+            index,
+            evaluations,
+            discrepancy,
+            stop_reason,
+            joints,
+            observation,
+            goal,
+            residual,
+            winner,
+            true_discrepancy,
+            feasible,
+            provenance,
+        } = view;
         Self {
-            run: view.run.into(),
-            features: all(view.features),
-            joint_names: view.joint_names,
-            goals: all(view.goals),
+            index,
+            evaluations,
+            discrepancy,
+            stop_reason: stop_reason.number(),
+            joints,
+            observation,
+            goal,
+            residual,
+            winner: winner.number(),
+            true_discrepancy,
+            feasible,
+            provenance: Some(provenance.into()),
         }
     }
 }
 
 impl From<RunTrials> for proto::RunTrials {
     fn from(view: RunTrials) -> Self {
-        let trials = view.trials.into_iter().map(|trial| proto::Trial {
-            joints: trial.joints,
-            observation: trial.observation.unwrap_or_default(),
-            goal: u32::try_from(trial.goal).unwrap_or(u32::MAX),
-        });
-        Self { run: view.run.into(), trials: trials.collect() }
+        let RunTrials { run, trials } = view;
+        Self { run: run.into(), trials: all(trials) }
     }
 }
 
-/// The name it has in JSON.
-pub fn stop_reason(reason: StopReason) -> String {
-    match reason {
-        StopReason::Stagnation => "stagnation",
-        StopReason::Target => "target",
-        StopReason::Tolerance => "tolerance",
-        StopReason::MaxEvaluations => "max_evaluations",
-        StopReason::OutOfReach => "out_of_reach",
-        StopReason::Infeasible => "infeasible",
-    }
-    .to_owned()
-}
-
-impl From<RunGoal> for proto::RunGoal {
-    fn from(goal: RunGoal) -> Self {
+impl From<Trial> for proto::Trial {
+    fn from(trial: Trial) -> Self {
+        let Trial { joints, observation, cells, goal } = trial;
         Self {
-            index: goal.index,
-            evaluations: goal.evaluations,
-            discrepancy: goal.discrepancy,
-            stop_reason: stop_reason(goal.stop_reason),
-            joints: goal.joints,
-            observation: goal.observation,
-            goal: goal.goal,
-            residual: goal.residual,
+            joints,
+            observed: observation.is_some(),
+            observation: observation.unwrap_or_default(),
+            cells: cells.unwrap_or_default(),
+            goal: u32::try_from(goal).unwrap_or(u32::MAX),
         }
+    }
+}
+
+impl From<Convergence> for proto::Convergence {
+    fn from(view: Convergence) -> Self {
+        let Convergence { run, points } = view;
+        Self { run: run.into(), points: all(points) }
+    }
+}
+
+impl From<ConvergencePoint> for proto::ConvergencePoint {
+    fn from(point: ConvergencePoint) -> Self {
+        let ConvergencePoint { goal_index, evaluations, discrepancy } = point;
+        Self { goal_index, evaluations, discrepancy }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model::{ActionId, JobId, RobotId, RunId, Timestamp, WorldId};
+    use crate::framework::method::per_goal::{Provenance, StopReason};
+    use crate::framework::recognition::Metric;
+    use uuid::Uuid;
+
+    #[test]
+    fn an_invalid_run_says_so() {
+        let id = Uuid::from_u128(1);
+        let view = RunView {
+            id: RunId::from_uuid(id),
+            job: JobId::from_uuid(id),
+            repetition: 2,
+            action: ActionId::from_uuid(id),
+            robot: RobotId::from_uuid(id),
+            world: WorldId::from_uuid(id),
+            method: "fi_pso".to_owned(),
+            metric: Metric::SumOfFeatures,
+            seed: 3,
+            evaluations: 4,
+            discrepancy: 5.5,
+            true_discrepancy: Some(6.5),
+            valid: false,
+            provenance: Tally { simulated: 1, rejected: 7, ..Tally::default() },
+            painted_percent: None,
+            goals: 8,
+            digest: "d".to_owned(),
+            trajectory: None,
+            trajectory_problem: Some("why".to_owned()),
+            created_at: Timestamp(0),
+        };
+        let message = proto::Run::from(view.clone());
+        assert!(!message.valid && proto::Run::from(RunView { valid: true, ..view }).valid);
+        assert_eq!(message.true_discrepancy, Some(6.5));
+        let tally = message.provenance.unwrap();
+        assert_eq!((tally.simulated, tally.rejected, tally.repaired), (1, 7, 0));
+        assert_eq!(message.metric(), proto::Metric::SumOfFeatures);
+    }
+
+    #[test]
+    fn a_goal_says_why_it_ended_and_whether_its_joints_are_allowed() {
+        let goal = RunGoal {
+            index: 1,
+            evaluations: 2,
+            discrepancy: 3.5,
+            stop_reason: StopReason::OutOfReach,
+            joints: vec![0.1],
+            observation: vec![0.2],
+            goal: vec![0.3],
+            residual: Some(0.1),
+            winner: Provenance::Inherited,
+            true_discrepancy: None,
+            feasible: false,
+            provenance: Tally { penalised: 9, ..Tally::default() },
+        };
+        let message = proto::RunGoal::from(goal);
+        assert_eq!(message.stop_reason(), proto::StopReason::OutOfReach);
+        assert_eq!(message.winner(), proto::Provenance::Inherited);
+        assert!(!message.feasible);
+        assert_eq!(message.provenance.unwrap().penalised, 9);
+    }
+
+    #[test]
+    fn a_lost_observation_is_not_an_empty_one() {
+        let seen = Trial { joints: vec![0.1], observation: Some(vec![5.0]), cells: Some(vec![u64::MAX]), goal: 2 };
+        let message = proto::Trial::from(seen.clone());
+        assert!(message.observed);
+        assert_eq!((message.observation.as_slice(), message.cells.as_slice()), (&[5.0][..], &[u64::MAX][..]));
+        let lost = proto::Trial::from(Trial { observation: None, cells: None, ..seen });
+        assert!(!lost.observed && lost.observation.is_empty() && lost.cells.is_empty());
+        assert_eq!(lost.goal, 2);
     }
 }

@@ -1,30 +1,47 @@
 //! Trajectories.
 
+use super::enumeration::Enumeration as _;
+use super::{all, time};
 use crate::app::model::{TrajectoryPoint, TrajectoryView};
-use crate::framework::trajectory::{LimitKind, Tightest};
+use crate::framework::trajectory::Tightest;
 use crate::grpc::proto;
 
 /// The head and the points.
 pub fn split(view: TrajectoryView) -> (proto::Trajectory, Vec<TrajectoryPoint>) {
+    let TrajectoryView {
+        id,
+        run,
+        job,
+        robot,
+        joint_names,
+        fixed_joints,
+        duration_s,
+        points,
+        goal_times_s,
+        tightest,
+        notes,
+        sha256,
+        created_at,
+    } = view;
     let head = proto::Trajectory {
-        id: view.id.into(),
-        run: view.run.into(),
-        job: view.job.into(),
-        robot: view.robot.into(),
-        joint_names: view.joint_names,
-        fixed_joints: view.fixed_joints.into_iter().collect(),
-        duration_s: view.duration_s,
-        points: view.points.len() as u64,
-        goal_times_s: view.goal_times_s,
-        tightest: super::all(view.tightest),
-        notes: view.notes,
-        sha256: view.sha256,
-        created_at_ms: view.created_at.0,
+        id: id.into(),
+        run: run.into(),
+        job: job.into(),
+        robot: robot.into(),
+        joint_names,
+        fixed_joints,
+        duration_s,
+        point_count: points.len() as u64,
+        goal_times_s,
+        tightest: all(tightest),
+        notes,
+        sha256,
+        created_at: Some(time(created_at)),
     };
-    (head, view.points)
+    (head, points)
 }
 
-/// The points from `from` on, `batch` a message.
+/// The points from `from` on, `batch` per message.
 pub fn chunks(points: Vec<TrajectoryPoint>, from: usize, batch: usize) -> Vec<proto::TrajectoryChunk> {
     let mut left = points.into_iter().skip(from).map(proto::TrajectoryPoint::from).peekable();
     let mut chunks: Vec<proto::TrajectoryChunk> = Vec::new();
@@ -37,30 +54,15 @@ pub fn chunks(points: Vec<TrajectoryPoint>, from: usize, batch: usize) -> Vec<pr
 
 impl From<TrajectoryPoint> for proto::TrajectoryPoint {
     fn from(point: TrajectoryPoint) -> Self {
-        Self {
-            t_s: point.t_s,
-            positions: point.positions,
-            velocities: point.velocities,
-            accelerations: point.accelerations,
-        }
+        let TrajectoryPoint { t_s, positions, velocities, accelerations } = point;
+        Self { t_s, positions, velocities, accelerations }
     }
 }
 
 impl From<Tightest> for proto::TightestLimit {
     fn from(tightest: Tightest) -> Self {
-        let kind = match tightest.kind {
-            LimitKind::Position => proto::LimitKind::Position,
-            LimitKind::Velocity => proto::LimitKind::Velocity,
-            LimitKind::Acceleration => proto::LimitKind::Acceleration,
-        };
-        Self {
-            kind: kind as i32,
-            joint: tightest.joint,
-            time_s: tightest.time_s,
-            value: tightest.value,
-            limit: tightest.limit,
-            ratio: tightest.ratio,
-        }
+        let Tightest { kind, joint, time_s, value, limit, ratio } = tightest;
+        Self { kind: kind.number(), joint, time_s, value, limit, ratio }
     }
 }
 

@@ -1,147 +1,136 @@
 //! What a job does: the request, in and out.
 
-use super::{finite, finite_or_none, list, metric, reference, references, required, text};
+use super::enumeration::{Enumeration as _, or_default};
+use super::{constraint, experiment, finite, finite_or_none, list, method, reference, references, required, text};
 use crate::app::model::{AppError, CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
-use crate::app::shape;
-use crate::framework::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
+use crate::framework::constraint::HandlingSpec;
 use crate::framework::execution::{Chosen, ExecutionSpec};
-use crate::framework::generalization::Weighting;
-use crate::framework::method::per_goal::{BoundsRule, MethodSpec, SstSpec, method_or_name};
+use crate::framework::world::RealitySpec;
 use crate::grpc::proto;
-use proto::execution_spec::Method;
+use proto::execution_spec::MethodChoice;
 use proto::work::Kind;
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 
 /// The work of a request.
+///
+/// # Errors
+/// `Invalid` at the JSON pointer that the field has over HTTP.
 pub fn work(work: Option<proto::Work>) -> Result<CreateJob, AppError> {
-    match required("/kind", work.and_then(|work| work.kind))? {
+    match required("/kind", work.and_then(|proto::Work { kind }| kind))? {
         Kind::Generalization(work) => generalization(work).map(CreateJob::Generalization),
         Kind::Execution(work) => execution(*work).map(|work| CreateJob::Execution(Box::new(work))),
-        Kind::ExperimentJson(json) => document("/experiment_json", &json).map(CreateJob::Experiment),
+        Kind::Experiment(work) => experiment::request(work).map(CreateJob::Experiment),
     }
 }
 
 /// A generalization.
+///
+/// # Errors
+/// As [`work`].
 pub fn generalization(work: proto::Generalization) -> Result<GeneralizationRequest, AppError> {
+    let proto::Generalization { name, demonstrations, t_min_s, weighting, features, metric } = work;
     Ok(GeneralizationRequest {
-        name: work.name,
-        demonstrations: references("/demonstrations", &work.demonstrations)?,
-        t_min_s: finite("/t_min_s", work.t_min_s)?,
-        weighting: weighting(work.weighting)?,
-        features: list(work.features),
-        metric: metric("/metric", work.metric)?,
+        name,
+        demonstrations: references("/demonstrations", &demonstrations)?,
+        t_min_s: finite("/t_min_s", t_min_s)?,
+        weighting: or_default("/weighting", weighting)?,
+        features: list(features),
+        metric: or_default("/metric", metric)?,
     })
 }
 
 fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
+    let proto::Execution {
+        name,
+        action,
+        robot,
+        world,
+        execution,
+        seed,
+        repetitions,
+        max_evaluations_per_s,
+        earlier_runs,
+    } = work;
     Ok(ExecutionRequest {
-        name: work.name.and_then(text),
-        action: reference("/action", &work.action)?,
-        robot: reference("/robot", &work.robot)?,
-        world: reference("/world", &work.world)?,
-        execution: spec(required("/execution", work.execution)?)?,
-        seed: work.seed,
-        repetitions: if work.repetitions == 0 { 1 } else { work.repetitions },
-        max_evaluations_per_s: finite_or_none("/max_evaluations_per_s", work.max_evaluations_per_s)?,
-        earlier_runs: work.earlier_runs.map(earlier).transpose()?,
+        name: name.and_then(text),
+        action: reference("/action", &action)?,
+        robot: reference("/robot", &robot)?,
+        world: reference("/world", &world)?,
+        execution: spec(required("/execution", execution)?)?,
+        seed,
+        repetitions: if repetitions == 0 { 1 } else { repetitions },
+        max_evaluations_per_s: finite_or_none("/max_evaluations_per_s", max_evaluations_per_s)?,
+        earlier_runs: earlier_runs.map(earlier).transpose()?,
     })
 }
 
 fn earlier(earlier: proto::EarlierRuns) -> Result<Vec<EarlierRun>, AppError> {
-    let run = |(index, earlier): (usize, proto::EarlierRun)| {
+    let run = |(index, proto::EarlierRun { run, job, trials }): (usize, proto::EarlierRun)| {
         let pointer = |field: &str| format!("/earlier_runs/{index}/{field}");
-        let job = text(earlier.job).map(|job| reference(&pointer("job"), &job)).transpose()?;
-        Ok(EarlierRun { run: reference(&pointer("run"), &earlier.run)?, job, trials: earlier.trials })
+        let job = text(job).map(|job| reference(&pointer("job"), &job)).transpose()?;
+        Ok(EarlierRun { run: reference(&pointer("run"), &run)?, job, trials })
     };
-    earlier.runs.into_iter().enumerate().map(run).collect()
+    let proto::EarlierRuns { runs } = earlier;
+    runs.into_iter().enumerate().map(run).collect()
 }
 
 fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
-    let method = match required("/execution/method", spec.method)? {
-        Method::Sst(sst) => MethodSpec::Sst(tournament(&sst)?),
-        Method::MethodJson(json) => document::<NamedMethod>("/execution/method_json", &json)?.0,
-        Method::MethodName(name) => MethodSpec::by_name(&name).ok_or_else(|| {
-            let detail = format!("{name:?} is no method: the methods are {}", MethodSpec::NAMES.join(", "));
-            AppError::field("/execution/method_name", "invalid_value", detail)
-        })?,
-    };
-    let constrained: Constrained = match spec.constraints_json.as_str() {
-        "" => Constrained::default(),
-        json => document("/execution/constraints_json", json)?,
-    };
+    let proto::ExecutionSpec {
+        method_choice,
+        metric,
+        target_discrepancy,
+        tolerance,
+        max_evaluations_per_goal,
+        rounding_noise,
+        chosen,
+        constraints,
+        handling,
+        on_infeasible,
+        reality,
+    } = spec;
+    let constraint = |(index, message)| constraint::constraint(&format!("/execution/constraints/{index}"), message);
     Ok(ExecutionSpec {
-        method,
-        chosen: spec.chosen.map(|chosen| Chosen { method: chosen.method, reason: chosen.reason }),
-        constraints: constrained.constraints,
-        handling: constrained.handling,
-        on_infeasible: constrained.on_infeasible,
-        metric: metric("/execution/metric", spec.metric)?,
-        target_discrepancy: finite_or_none("/execution/target_discrepancy", spec.target_discrepancy)?,
-        tolerance: finite_or_none("/execution/tolerance", spec.tolerance)?,
-        max_evaluations_per_goal: spec.max_evaluations_per_goal,
-        rounding_noise: finite("/execution/rounding_noise", spec.rounding_noise)?,
-        reality: match spec.reality_json.as_str() {
-            "" => None,
-            json => Some(document("/execution/reality_json", json)?),
+        method: match required("/execution/method", method_choice)? {
+            MethodChoice::Method(message) => method::method("/execution/method", message)?,
+            MethodChoice::MethodName(name) => method::named("/execution/method_name", &name)?,
         },
+        chosen: chosen.map(|proto::ChosenMethod { method, reason }| Chosen { method, reason }),
+        constraints: constraints.into_iter().enumerate().map(constraint).collect::<Result<_, _>>()?,
+        handling: match handling {
+            None => HandlingSpec::default(),
+            Some(message) => constraint::handling("/execution/handling", message)?,
+        },
+        on_infeasible: or_default("/execution/on_infeasible", on_infeasible)?,
+        metric: or_default("/execution/metric", metric)?,
+        target_discrepancy: finite_or_none("/execution/target_discrepancy", target_discrepancy)?,
+        tolerance: finite_or_none("/execution/tolerance", tolerance)?,
+        max_evaluations_per_goal,
+        rounding_noise: finite("/execution/rounding_noise", rounding_noise)?,
+        reality: reality.map(self::reality).transpose()?,
     })
 }
 
-/// The part of an execution that travels as a JSON document.
-#[derive(Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Constrained {
-    constraints: Vec<ConstraintSpec>,
-    handling: HandlingSpec,
-    on_infeasible: OnInfeasible,
-}
-
-fn document<T: DeserializeOwned + Serialize>(pointer: &str, json: &str) -> Result<T, AppError> {
-    let refuse = |error: serde_json::Error| AppError::field(pointer, "invalid_value", error.to_string());
-    let value = serde_json::from_str(json).map_err(refuse)?;
-    let sent = serde_json::from_str(json).map_err(refuse)?;
-    shape::check(pointer, &sent, &serde_json::to_value(&value).map_err(AppError::internal)?)?;
-    Ok(value)
-}
-
-/// A method that travels as a JSON document: an object, or its name alone.
-#[derive(Serialize, Deserialize)]
-struct NamedMethod(#[serde(deserialize_with = "method_or_name")] MethodSpec);
-
-/// JSON of a value type, which always has one.
-fn json(value: &impl Serialize) -> String {
-    serde_json::to_string(value).unwrap_or_default()
-}
-
-fn tournament(sst: &proto::SteadyStateTournament) -> Result<SstSpec, AppError> {
-    let default = SstSpec::default();
-    let probability = sst.mutation_probability.unwrap_or(default.mutation_probability);
-    Ok(SstSpec {
-        population: sst.population.unwrap_or(default.population),
-        stagnation: sst.stagnation.unwrap_or(default.stagnation),
-        mutation_probability: finite("/execution/method/mutation_probability", probability)?,
-        ecf_gene0_quirk: sst.ecf_gene0_quirk.unwrap_or(default.ecf_gene0_quirk),
-        ecf_shared_parent_quirk: sst.ecf_shared_parent_quirk.unwrap_or(default.ecf_shared_parent_quirk),
-        bounds: if sst.open_bounds.unwrap_or(false) { BoundsRule::Open } else { BoundsRule::Clamp },
-        ecf_target_at_generation_end: sst.ecf_target_at_generation_end.unwrap_or(default.ecf_target_at_generation_end),
+fn reality(message: proto::RealitySpec) -> Result<RealitySpec, AppError> {
+    let proto::RealitySpec {
+        link_share,
+        base_shift_m,
+        sensor_noise,
+        joint_noise_deg,
+        lost_share,
+        latency_s,
+        settle_s,
+        seed,
+    } = message;
+    let number = |field: &str, value: f64| finite(&format!("/execution/reality/{field}"), value);
+    Ok(RealitySpec {
+        link_share: number("link_share", link_share)?,
+        base_shift_m: number("base_shift_m", base_shift_m)?,
+        sensor_noise: number("sensor_noise", sensor_noise)?,
+        joint_noise_deg: number("joint_noise_deg", joint_noise_deg)?,
+        lost_share: number("lost_share", lost_share)?,
+        latency_s: number("latency_s", latency_s)?,
+        settle_s: number("settle_s", settle_s)?,
+        seed,
     })
-}
-
-fn weighting(value: i32) -> Result<Weighting, AppError> {
-    match proto::Weighting::try_from(value) {
-        Ok(proto::Weighting::Unspecified | proto::Weighting::PerDemonstration) => Ok(Weighting::PerDemonstration),
-        Ok(proto::Weighting::PerSample) => Ok(Weighting::PerSample),
-        Err(_) => Err(AppError::field("/weighting", "invalid_value", format!("{value} is no weighting"))),
-    }
-}
-
-/// The same weighting.
-pub fn weighting_message(weighting: Weighting) -> proto::Weighting {
-    match weighting {
-        Weighting::PerSample => proto::Weighting::PerSample,
-        Weighting::PerDemonstration => proto::Weighting::PerDemonstration,
-    }
 }
 
 impl From<CreateJob> for proto::Work {
@@ -149,7 +138,7 @@ impl From<CreateJob> for proto::Work {
         let kind = match work {
             CreateJob::Generalization(work) => Kind::Generalization(work.into()),
             CreateJob::Execution(work) => Kind::Execution(Box::new((*work).into())),
-            CreateJob::Experiment(work) => Kind::ExperimentJson(json(&work)),
+            CreateJob::Experiment(work) => Kind::Experiment(work.into()),
         };
         Self { kind: Some(kind) }
     }
@@ -157,74 +146,103 @@ impl From<CreateJob> for proto::Work {
 
 impl From<GeneralizationRequest> for proto::Generalization {
     fn from(work: GeneralizationRequest) -> Self {
+        let GeneralizationRequest { name, demonstrations, t_min_s, weighting, features, metric } = work;
         Self {
-            name: work.name,
-            demonstrations: work.demonstrations.into_iter().map(String::from).collect(),
-            t_min_s: work.t_min_s,
-            weighting: weighting_message(work.weighting) as i32,
-            features: work.features.unwrap_or_default(),
-            metric: proto::Metric::from(work.metric) as i32,
+            name,
+            demonstrations: demonstrations.into_iter().map(String::from).collect(),
+            t_min_s,
+            weighting: weighting.number(),
+            features: features.unwrap_or_default(),
+            metric: metric.number(),
         }
     }
 }
 
 impl From<ExecutionRequest> for proto::Execution {
     fn from(work: ExecutionRequest) -> Self {
+        let ExecutionRequest {
+            name,
+            action,
+            robot,
+            world,
+            execution,
+            seed,
+            repetitions,
+            max_evaluations_per_s,
+            earlier_runs,
+        } = work;
         Self {
-            name: work.name,
-            action: work.action.into(),
-            robot: work.robot.into(),
-            world: work.world.into(),
-            execution: Some(work.execution.into()),
-            seed: work.seed,
-            repetitions: work.repetitions,
-            max_evaluations_per_s: work.max_evaluations_per_s,
-            earlier_runs: work
-                .earlier_runs
-                .map(|runs| proto::EarlierRuns { runs: runs.into_iter().map(Into::into).collect() }),
+            name,
+            action: action.into(),
+            robot: robot.into(),
+            world: world.into(),
+            execution: Some(execution.into()),
+            seed,
+            repetitions,
+            max_evaluations_per_s,
+            earlier_runs: earlier_runs.map(|runs| proto::EarlierRuns { runs: super::all(runs) }),
         }
     }
 }
 
 impl From<EarlierRun> for proto::EarlierRun {
     fn from(earlier: EarlierRun) -> Self {
-        Self { run: earlier.run.into(), job: earlier.job.map(String::from).unwrap_or_default(), trials: earlier.trials }
+        let EarlierRun { run, job, trials } = earlier;
+        Self { run: run.into(), job: job.map(String::from).unwrap_or_default(), trials }
     }
 }
 
 impl From<Chosen> for proto::ChosenMethod {
     fn from(chosen: Chosen) -> Self {
-        Self { method: chosen.method, reason: chosen.reason }
+        let Chosen { method, reason } = chosen;
+        Self { method, reason }
     }
 }
 
 impl From<ExecutionSpec> for proto::ExecutionSpec {
     fn from(spec: ExecutionSpec) -> Self {
-        let method = match spec.method {
-            MethodSpec::Sst(sst) if sst.bounds != BoundsRule::Reflect => Method::Sst(proto::SteadyStateTournament {
-                population: Some(sst.population),
-                stagnation: Some(sst.stagnation),
-                mutation_probability: Some(sst.mutation_probability),
-                ecf_gene0_quirk: Some(sst.ecf_gene0_quirk),
-                ecf_shared_parent_quirk: Some(sst.ecf_shared_parent_quirk),
-                open_bounds: Some(sst.bounds == BoundsRule::Open),
-                ecf_target_at_generation_end: Some(sst.ecf_target_at_generation_end),
-            }),
-            method => Method::MethodJson(json(&method)),
-        };
-        let constrained =
-            Constrained { constraints: spec.constraints, handling: spec.handling, on_infeasible: spec.on_infeasible };
+        let ExecutionSpec {
+            method,
+            chosen,
+            metric,
+            target_discrepancy,
+            tolerance,
+            max_evaluations_per_goal,
+            rounding_noise,
+            reality,
+            constraints,
+            handling,
+            on_infeasible,
+        } = spec;
         Self {
-            method: Some(method),
-            chosen: spec.chosen.map(Into::into),
-            constraints_json: if constrained == Constrained::default() { String::new() } else { json(&constrained) },
-            metric: proto::Metric::from(spec.metric) as i32,
-            target_discrepancy: spec.target_discrepancy,
-            tolerance: spec.tolerance,
-            max_evaluations_per_goal: spec.max_evaluations_per_goal,
-            rounding_noise: spec.rounding_noise,
-            reality_json: spec.reality.as_ref().map_or_else(String::new, json),
+            method_choice: Some(MethodChoice::Method(method.into())),
+            chosen: chosen.map(Into::into),
+            constraints: super::all(constraints),
+            handling: (handling != HandlingSpec::default()).then(|| handling.into()),
+            on_infeasible: on_infeasible.number(),
+            metric: metric.number(),
+            target_discrepancy,
+            tolerance,
+            max_evaluations_per_goal,
+            rounding_noise,
+            reality: reality.map(Into::into),
         }
+    }
+}
+
+impl From<RealitySpec> for proto::RealitySpec {
+    fn from(spec: RealitySpec) -> Self {
+        let RealitySpec {
+            link_share,
+            base_shift_m,
+            sensor_noise,
+            joint_noise_deg,
+            lost_share,
+            latency_s,
+            settle_s,
+            seed,
+        } = spec;
+        Self { link_share, base_shift_m, sensor_noise, joint_noise_deg, lost_share, latency_s, settle_s, seed }
     }
 }
 
@@ -232,31 +250,40 @@ impl From<ExecutionSpec> for proto::ExecutionSpec {
 mod tests {
     use super::*;
     use crate::app::model::ErrorKind;
+    use serde_json::{Value, json};
 
-    fn request(json: serde_json::Value) -> CreateJob {
+    fn request(json: Value) -> CreateJob {
         serde_json::from_value(json).unwrap()
+    }
+
+    fn executing(execution: &Value) -> Value {
+        let id = "0".repeat(32);
+        json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
+            "world": format!("wld_{id}"), "execution": execution})
     }
 
     #[test]
     fn a_request_survives_the_wire() {
         let id = "0".repeat(32);
+        let mut full = executing(&json!({"method": {"name": "fi_pso", "inheritance_probability": 0.25},
+            "chosen": {"method": "fi_pso", "reason": "why"}, "metric": "aquila", "target_discrepancy": 1.5,
+            "tolerance": 5.0, "max_evaluations_per_goal": 40, "rounding_noise": 1e-13,
+            "constraints": [{"kind": "joint_step", "limit_rad": 0.2}],
+            "handling": {"strategy": "penalty", "penalty": {"kind": "dynamic", "weight": 2.5}},
+            "on_infeasible": "append",
+            "reality": {"link_share": 0.05, "base_shift_m": 0.02, "sensor_noise": 0.1, "joint_noise_deg": 0.2,
+                "lost_share": 0.3, "latency_s": 0.4, "settle_s": 0.5, "seed": 6}}));
+        full["name"] = json!("night");
+        full["seed"] = json!(7);
+        full["repetitions"] = json!(3);
+        full["max_evaluations_per_s"] = json!(10.5);
+        full["earlier_runs"] = json!([{"run": format!("run_{id}"), "job": format!("job_{id}"), "trials": 12}]);
         for json in [
-            serde_json::json!({"kind": "generalization", "name": "wax", "demonstrations": [format!("dem_{id}")],
+            json!({"kind": "generalization", "name": "wax", "demonstrations": [format!("dem_{id}")],
                 "t_min_s": 2.5, "weighting": "per_sample", "features": ["x"], "metric": "aquila"}),
-            serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
-                "world": format!("wld_{id}"), "seed": 7, "repetitions": 3, "execution": {"tolerance": 5.0,
-                "method": {"name": "sst", "population": 10, "stagnation": 4, "ecf_gene0_quirk": true}}}),
-            serde_json::json!({"kind": "experiment", "paper_table": "all", "repetitions": 3, "seed": 7}),
-            serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
-                "world": format!("wld_{id}"), "seed": 7, "execution": {
-                "method": {"name": "fi_pso", "swarm": {"population": 10}, "inheritance_probability": 0.25},
-                "constraints": [{"kind": "region", "geometry": {"shape": "sphere", "center_m": [0.5, 0, 0], "radius_m": 0.4}}],
-                "handling": {"strategy": "penalty", "penalty": {"kind": "dynamic", "weight": 2.5}},
-                "on_infeasible": "append"}}),
-            serde_json::json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
-                "world": format!("wld_{id}"), "seed": 7, "execution": {"method": "model", "chosen": {"method": "model", "reason": "why"},
-                "reality": {"link_share": 0.05, "base_shift_m": 0.02}}, "earlier_runs": [{"run": format!("run_{id}"),
-                "job": format!("job_{id}"), "trials": 12}]}),
+            json!({"kind": "experiment", "paper_table": "all", "repetitions": 3, "seed": 7}),
+            executing(&json!({"method": "model"})),
+            full,
         ] {
             let before = request(json);
             assert_eq!(work(Some(before.clone().into())).unwrap(), before);
@@ -266,35 +293,29 @@ mod tests {
     #[test]
     fn absent_fields_have_the_same_defaults_as_in_json() {
         let id = "0".repeat(32);
-        let (action, robot, world) = (format!("act_{id}"), format!("rob_{id}"), format!("wld_{id}"));
-        let json = request(serde_json::json!({"kind": "execution", "action": action, "robot": robot, "world": world,
-            "execution": {"method": {"name": "sst"}}}));
-        let sst = Method::Sst(proto::SteadyStateTournament::default());
-        let spec = proto::ExecutionSpec { method: Some(sst), ..Default::default() };
-        let message = proto::Execution { action, robot, world, execution: Some(spec), ..Default::default() };
-        assert_eq!(work(Some(proto::Work { kind: Some(Kind::Execution(Box::new(message))) })).unwrap(), json);
-    }
-
-    #[test]
-    fn json_documents_are_read_as_over_http() {
-        let read = |method: &str, reality: &str| {
-            let method = Some(Method::MethodJson(method.to_owned()));
-            spec(proto::ExecutionSpec { method, reality_json: reality.to_owned(), ..Default::default() })
+        let method_choice = Some(MethodChoice::MethodName("sst".to_owned()));
+        let message = proto::Execution {
+            action: format!("act_{id}"),
+            robot: format!("rob_{id}"),
+            world: format!("wld_{id}"),
+            execution: Some(proto::ExecutionSpec { method_choice, ..Default::default() }),
+            ..Default::default()
         };
-        assert_eq!(read("\"model\"", "").unwrap().method, MethodSpec::by_name("model").unwrap());
-        assert_eq!(read("{\"name\": \"model\"}", "").unwrap(), read("\"model\"", "").unwrap());
-        let place = |error: AppError| error.details[0].pointer.clone();
-        assert_eq!(place(read("{\"name\": 3}", "").unwrap_err()), "/execution/method_json");
-        assert_eq!(place(read("\"model\"", "[0.5]").unwrap_err()), "/execution/reality_json");
+        let message = proto::Work { kind: Some(Kind::Execution(Box::new(message))) };
+        assert_eq!(work(Some(message)).unwrap(), request(executing(&json!({"method": {"name": "sst"}}))));
     }
 
     #[test]
     fn what_is_missing_or_wrong_is_named() {
+        let pointer = |error: AppError| error.details[0].pointer.clone();
         let error = work(None).unwrap_err();
-        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/kind"));
+        assert_eq!((error.kind, pointer(error).as_str()), (ErrorKind::Invalid, "/kind"));
         let wrong = proto::Generalization { t_min_s: f64::NAN, ..Default::default() };
-        assert_eq!(generalization(wrong).unwrap_err().details[0].pointer, "/t_min_s");
+        assert_eq!(pointer(generalization(wrong).unwrap_err()), "/t_min_s");
         let wrong = proto::Generalization { weighting: 9, ..Default::default() };
-        assert_eq!(generalization(wrong).unwrap_err().details[0].pointer, "/weighting");
+        assert_eq!(pointer(generalization(wrong).unwrap_err()), "/weighting");
+        assert_eq!(pointer(spec(proto::ExecutionSpec::default()).unwrap_err()), "/execution/method");
+        let wrong = proto::RealitySpec { lost_share: f64::NAN, ..Default::default() };
+        assert_eq!(pointer(reality(wrong).unwrap_err()), "/execution/reality/lost_share");
     }
 }

@@ -1,67 +1,78 @@
 //! Worlds.
 
-use super::{all, finite, required, triple};
+use super::enumeration::{Enumeration as _, or_default};
+use super::{all, finite, required, time, triple};
 use crate::app::model::{AppError, CreateWorld, WorldView};
-use crate::framework::world::{CoverageSpec, SurfaceView, ToolPositionSpec, WorldSpec};
+use crate::framework::world::{CoverageSpec, ToolPositionSpec, WorldSpec};
 use crate::grpc::proto;
 use proto::world_spec::Kind;
 
 /// A new world.
+///
+/// # Errors
+/// `Invalid` for a message without a kind, with another number of coordinates than 3 or a number that is not finite.
 pub fn create(request: proto::CreateWorldRequest) -> Result<CreateWorld, AppError> {
-    let kind = required("/spec", request.spec.and_then(|spec| spec.kind))?;
-    Ok(CreateWorld { name: request.name, spec: spec(kind)? })
+    let proto::CreateWorldRequest { name, spec } = request;
+    let kind = required("/spec", spec.and_then(|proto::WorldSpec { kind }| kind))?;
+    Ok(CreateWorld { name, spec: self::spec(kind)? })
 }
 
 fn spec(kind: Kind) -> Result<WorldSpec, AppError> {
-    Ok(match kind {
-        Kind::ToolPosition(world) => WorldSpec::ToolPosition(ToolPositionSpec { unit: world.unit }),
-        Kind::Coverage(world) => WorldSpec::Coverage(CoverageSpec {
-            origin_m: triple("/spec/origin_m", &world.origin_m)?,
-            column_step_m: triple("/spec/column_step_m", &world.column_step_m)?,
-            row_step_m: triple("/spec/row_step_m", &world.row_step_m)?,
-            columns: world.columns,
-            rows: world.rows,
-            radius_m: finite("/spec/radius_m", world.radius_m)?,
-            resets: world.resets.unwrap_or(true),
-            observes: match world.observes() {
-                proto::SurfaceView::Cells => SurfaceView::Cells,
-                proto::SurfaceView::Percent | proto::SurfaceView::Unspecified => SurfaceView::Percent,
-            },
-        }),
+    match kind {
+        Kind::ToolPosition(proto::ToolPositionWorld { unit }) => Ok(WorldSpec::ToolPosition(ToolPositionSpec { unit })),
+        Kind::Coverage(world) => coverage(world).map(WorldSpec::Coverage),
+    }
+}
+
+fn coverage(world: proto::CoverageWorld) -> Result<CoverageSpec, AppError> {
+    let proto::CoverageWorld { origin_m, column_step_m, row_step_m, columns, rows, radius_m, resets, observes } = world;
+    Ok(CoverageSpec {
+        origin_m: triple("/spec/origin_m", &origin_m)?,
+        column_step_m: triple("/spec/column_step_m", &column_step_m)?,
+        row_step_m: triple("/spec/row_step_m", &row_step_m)?,
+        columns,
+        rows,
+        radius_m: finite("/spec/radius_m", radius_m)?,
+        resets: resets.unwrap_or(true),
+        observes: or_default("/spec/observes", observes)?,
     })
 }
 
 impl From<WorldSpec> for proto::WorldSpec {
     fn from(spec: WorldSpec) -> Self {
         let kind = match spec {
-            WorldSpec::ToolPosition(world) => Kind::ToolPosition(proto::ToolPositionWorld { unit: world.unit }),
-            WorldSpec::Coverage(world) => Kind::Coverage(proto::CoverageWorld {
-                origin_m: world.origin_m.to_vec(),
-                column_step_m: world.column_step_m.to_vec(),
-                row_step_m: world.row_step_m.to_vec(),
-                columns: world.columns,
-                rows: world.rows,
-                radius_m: world.radius_m,
-                resets: Some(world.resets),
-                observes: match world.observes {
-                    SurfaceView::Percent => proto::SurfaceView::Percent,
-                    SurfaceView::Cells => proto::SurfaceView::Cells,
-                }
-                .into(),
-            }),
+            WorldSpec::ToolPosition(ToolPositionSpec { unit }) => Kind::ToolPosition(proto::ToolPositionWorld { unit }),
+            WorldSpec::Coverage(spec) => Kind::Coverage(spec.into()),
         };
         Self { kind: Some(kind) }
     }
 }
 
+impl From<CoverageSpec> for proto::CoverageWorld {
+    fn from(spec: CoverageSpec) -> Self {
+        let CoverageSpec { origin_m, column_step_m, row_step_m, columns, rows, radius_m, resets, observes } = spec;
+        Self {
+            origin_m: origin_m.to_vec(),
+            column_step_m: column_step_m.to_vec(),
+            row_step_m: row_step_m.to_vec(),
+            columns,
+            rows,
+            radius_m,
+            resets: Some(resets),
+            observes: observes.number(),
+        }
+    }
+}
+
 impl From<WorldView> for proto::World {
     fn from(view: WorldView) -> Self {
+        let WorldView { id, name, spec, features, created_at } = view;
         Self {
-            id: view.id.into(),
-            name: view.name,
-            spec: Some(view.spec.into()),
-            features: all(view.features),
-            created_at_ms: view.created_at.0,
+            id: id.into(),
+            name,
+            spec: Some(spec.into()),
+            features: all(features),
+            created_at: Some(time(created_at)),
         }
     }
 }
