@@ -56,7 +56,8 @@ impl App {
         let waypoints: Vec<Vec<f64>> = goals.goals.into_iter().map(|goal| goal.joints).collect();
         let trajectory = compute(move || again(&work.problem, &waypoints)).await??;
         if digest(&trajectory) != view.sha256 {
-            let message = format!("this version plans {id} otherwise than the one that made it: run the job again");
+            let message =
+                format!("this version plans {id} differently from the one that created it: run the job again");
             return Err(AppError::new(ErrorKind::Conflict, "planned_otherwise", message));
         }
         let name = id.as_str();
@@ -78,6 +79,10 @@ fn again(problem: &Problem, waypoints: &[Vec<f64>]) -> Result<CheckedTrajectory,
     let model = RobotModel::from_urdf(&problem.urdf).map_err(|error| AppError::internal(chain_text(&error)))?;
     let chain = Chain::new(&model, &problem.robot).map_err(|error| AppError::internal(chain_text(&error)))?;
     plan_through(&chain, waypoints).map_err(|why| {
-        AppError::new(ErrorKind::Conflict, "planned_otherwise", format!("no trajectory any more: {why}"))
+        AppError::new(
+            ErrorKind::Conflict,
+            "planned_otherwise",
+            format!("this version cannot plan the trajectory: {why}"),
+        )
     })
 }

@@ -59,7 +59,7 @@ fn admit(guard: &Guard, request: &Request) -> Result<Admission, AppError> {
         let token = bearer.filter(|(scheme, _)| scheme.eq_ignore_ascii_case("bearer")).map(|(_, token)| token.trim());
         return match token {
             Some(token) if guard.access.admits_token(token) => Ok(Admission::Pass),
-            _ => Err(unauthenticated("the authorization header does not hold this server's token")),
+            _ => Err(unauthenticated("the authorization header does not contain this server's token")),
         };
     }
     if cookies(headers).any(|session| guard.access.admits_session(session)) {

@@ -38,17 +38,17 @@ pub fn of_status(code: StatusCode) -> Problem {
         StatusCode::METHOD_NOT_ALLOWED => (
             ErrorKind::Malformed,
             "method_not_allowed",
-            "this address does not answer that method: the Allow header lists those it answers",
+            "this address does not support that method: the Allow header lists those it supports",
         ),
         StatusCode::PAYLOAD_TOO_LARGE => (ErrorKind::TooLarge, "body_too_large", "the body is larger than the limit"),
         StatusCode::UNSUPPORTED_MEDIA_TYPE => {
-            (ErrorKind::Malformed, "unsupported_media_type", "this address does not read that content type")
+            (ErrorKind::Malformed, "unsupported_media_type", "this address does not accept that content type")
         }
         StatusCode::REQUEST_TIMEOUT => {
             (ErrorKind::Unavailable, "request_timeout", "the request took longer than the limit")
         }
         status if status.is_server_error() => {
-            (ErrorKind::Internal, "internal", "the service failed to answer; its log has the cause")
+            (ErrorKind::Internal, "internal", "the service failed; its log has the cause")
         }
         _ => (ErrorKind::Malformed, "bad_request", "the request cannot be read"),
     };

@@ -40,7 +40,7 @@ pub struct EventsParameters {
 /// Streams every event of a job as server-sent events: `id` is `seq`, `event` is `type`, `data` the event as JSON.
 #[utoipa::path(get, path = "/jobs/{id}/events", operation_id = "watchJob", tag = "jobs",
     params(("id" = JobId, Path), EventsParameters,
-        ("Last-Event-ID" = Option<u64>, Header, description = "As `after_seq`; browsers send it by themselves.")),
+        ("Last-Event-ID" = Option<u64>, Header, description = "Like `after_seq`; browsers send it automatically.")),
     responses(
         (status = 200, description = "The stream; a ping every 15 s.", body = JobEvent, content_type = "text/event-stream"),
         (status = 204, description = "The job is final and there is no later event: do not reconnect.")))]

@@ -46,7 +46,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<R
 /// The goals of a run, with target and observation.
 #[utoipa::path(get, path = "/runs/{id}/goals", operation_id = "getRunGoals", tag = "runs",
     params(("id" = RunId, Path)),
-    responses((status = 200, description = "One entry a goal.", body = RunGoals)))]
+    responses((status = 200, description = "One entry per goal.", body = RunGoals)))]
 pub async fn goals(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunGoals>, Problem> {
     Ok(Json(app.run_goals(&id).await?))
 }

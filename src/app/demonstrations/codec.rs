@@ -23,7 +23,7 @@ struct StreamHeader {
 #[derive(Debug, thiserror::Error)]
 pub enum CodecError {
     /// The number of bytes differs from what the header says.
-    #[error("{found} bytes where {expected} are needed")]
+    #[error("{found} bytes instead of {expected}")]
     Length {
         /// Number of bytes found.
         found: usize,

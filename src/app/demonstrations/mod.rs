@@ -26,12 +26,12 @@ impl App {
             check_name("/name", name)?;
         }
         if upload.files.is_empty() {
-            return Err(AppError::field("/files", "missing_file", "an upload has at least one file"));
+            return Err(AppError::field("/files", "missing_file", "an upload needs at least one file"));
         }
         let (demonstration, mut findings, sha256, samples) = compute(move || read(upload)).await??;
         for twin in self.ports.store.demonstrations_with_content(&sha256).await? {
-            let message = format!("the samples are the same as those of {twin}");
-            let remedy = "delete one of them, unless it was meant to count twice";
+            let message = format!("the samples are identical to those of {twin}");
+            let remedy = "delete one of them, unless it should count twice";
             findings.push(Finding::warning(FindingCode::DuplicateContent, message, remedy));
         }
         let id = DemonstrationId::from_uuid(self.ports.ids.uuid());
@@ -182,8 +182,8 @@ fn refuse(findings: &[Finding]) -> AppError {
         .collect();
     let too_large = findings.iter().any(|finding| finding.is_error() && finding.code == FindingCode::TooLarge);
     let message = match details.as_slice() {
-        [only] => format!("the demonstration is refused: {}", only.detail),
-        many => format!("the demonstration is refused for {} reasons", many.len()),
+        [only] => format!("the demonstration is rejected: {}", only.detail),
+        many => format!("the demonstration is rejected for {} reasons", many.len()),
     };
     let kind = if too_large { ErrorKind::TooLarge } else { ErrorKind::Invalid };
     AppError { details, ..AppError::new(kind, "invalid_demonstration", message) }
@@ -218,8 +218,10 @@ fn view(
 
 fn csv(demonstration: &Demonstration) -> Result<Vec<u8>, AppError> {
     let [stream] = demonstration.streams.as_slice() else {
-        let message =
-            format!("the demonstration has {} streams, a CSV file holds one: export json", demonstration.streams.len());
+        let message = format!(
+            "the demonstration has {} streams, but a CSV file holds only one: export json",
+            demonstration.streams.len()
+        );
         return Err(AppError::new(ErrorKind::Conflict, "several_streams", message));
     };
     let mut writer = csv::Writer::from_writer(Vec::new());

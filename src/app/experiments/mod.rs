@@ -97,7 +97,8 @@ impl App {
         };
         let (first_name, second_name) = (setting("first", first)?, setting("second", second)?);
         let Some(comparison) = compute(move || experiment.compare(first, second, quantity)).await? else {
-            let message = format!("no seed counts in both cell {first} and cell {second} yet: wait for runs of both");
+            let message =
+                format!("cells {first} and {second} have no seed with valid runs in both yet: wait for more runs");
             return Err(AppError::new(ErrorKind::Conflict, "no_pairs", message));
         };
         let what = match quantity {
@@ -139,7 +140,7 @@ fn position(text: &str) -> Result<RunId, AppError> {
     let numbers =
         text.split_once('.').and_then(|(cell, repetition)| Some((cell.parse().ok()?, repetition.parse().ok()?)));
     let Some((cell, repetition)) = numbers else {
-        let message = "page_token was not given by this list: start again without it";
+        let message = "page_token does not belong to this list: start again without it";
         return Err(AppError::new(ErrorKind::Malformed, "invalid_page_token", message));
     };
     Ok(RunId { cell, repetition })

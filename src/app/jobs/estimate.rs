@@ -33,13 +33,13 @@ pub(super) fn estimate(resolved: &Resolved, robot_trial_s: f64, clock: &dyn Cloc
             let evaluations = previews.iter().map(|p| p.preview.whole()).sum::<f64>() * f64::from(plan.repetitions);
             let ended = previews.iter().filter(|p| p.preview.finished).count();
             let basis = format!(
-                "the first repetition of each of {} cells, of which {ended} were simulated to their end; one core",
+                "the first repetition of each of {} cells, {ended} of them simulated to the end; one core",
                 previews.len()
             );
             Ok(cost(evaluations, robot_trial_s, &previews, 0.0, basis))
         }
         _ => {
-            let basis = "a generalization evaluates nothing".to_owned();
+            let basis = "a generalization needs no evaluations".to_owned();
             Ok(CostEstimate { evaluations: 0, simulated_s: 0.1, robot_s: 0.0, text: basis.clone(), basis })
         }
     }

@@ -102,7 +102,7 @@ impl App {
             match self.ports.store.demonstration(id).await {
                 Ok(view) => {
                     if let Some(reason) = view.excluded {
-                        let detail = format!("{id} is excluded ({reason}): take it in again or leave it out");
+                        let detail = format!("{id} is excluded ({reason}): include it again or omit it");
                         errors.push(FieldError::new(pointer, "excluded", detail));
                     }
                 }

@@ -108,7 +108,7 @@ impl AppError {
             // The empty pointer denotes the whole body.
             [only] if only.pointer.is_empty() => only.detail.clone(),
             [only] => format!("{}: {}", only.pointer, only.detail),
-            many => format!("{} places of the request are wrong", many.len()),
+            many => format!("{} places in the request are invalid", many.len()),
         };
         Self { details, ..Self::new(ErrorKind::Invalid, "invalid_request", message) }
     }
@@ -128,7 +128,7 @@ impl AppError {
         let source: Box<dyn std::error::Error + Send + Sync> = source.into();
         Self {
             source: Some(Arc::from(source)),
-            ..Self::new(ErrorKind::Internal, "internal", "the service failed to answer; its log has the cause")
+            ..Self::new(ErrorKind::Internal, "internal", "the service failed; its log has the cause")
         }
     }
 

@@ -86,7 +86,7 @@ fn decode(token: &str, filter_hash: &str) -> Result<String, AppError> {
         AppError::new(
             ErrorKind::Malformed,
             "invalid_page_token",
-            "page_token was not given by this list with these filters: start again without it",
+            "page_token does not belong to this list with these filters: start again without it",
         )
     };
     let text = hex::decode(token).ok().and_then(|bytes| String::from_utf8(bytes).ok()).ok_or_else(refuse)?;

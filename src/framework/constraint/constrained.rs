@@ -1,18 +1,18 @@
-//! Any optimiser under constraints: the judge between what it proposes and what is executed.
+//! The judge: applies constraints to any optimiser, between its proposals and their execution.
 //!
-//! The judge sees every candidate before it is executed and every discrepancy before the optimiser is told, so that one
-//! mechanism serves all optimisers. What each strategy promises:
+//! The judge sees every candidate before it is executed, and every discrepancy before the optimiser does, so one
+//! mechanism serves all optimisers. Guarantees per strategy:
 //! - rejecting, repairing, operators, death penalty: no infeasible candidate is executed;
-//! - other penalties: infeasible candidates are executed and told a strictly larger discrepancy;
+//! - other penalties: infeasible candidates are executed and get a strictly larger discrepancy;
 //! - all: the goal's result is feasible, or the search stops with [`StopReason::Infeasible`].
 //!
-//! All attempts are bounded: a candidate for which no feasible place is found in `max_attempts` is told as failed, and
-//! the optimiser's own stagnation ends the search.
+//! All attempts are bounded: if no feasible pose is found for a candidate in `max_attempts`, it is reported to the
+//! optimiser as failed, and the optimiser's own stagnation ends the search.
 //!
 //! # Invariants
-//! - The bits do not depend on how many candidates are asked for at once: proposals are judged one by one, and where a
-//!   judgement uses what was executed before (repairing, operators) candidates are handed out one by one too.
-//! - `state.waiting` names the candidates handed out and not told, with their violations where infeasible.
+//! - The bits do not depend on how many candidates are asked for at once: proposals are judged one by one. If a
+//!   judgement depends on earlier executions (repairing, operators), candidates are also handed out one by one.
+//! - `state.waiting` lists the candidates handed out and not yet reported back, with their violations if infeasible.
 
 use super::error::ConstraintError;
 use super::penalty::{self, PenaltyState, penalised};
@@ -25,26 +25,28 @@ use crate::method::per_goal::{
 use crate::random::RandomStream;
 use std::sync::Arc;
 
-/// Halvings of a step before its origin itself is taken; bisections of a repair.
+/// Maximum number of halvings of a step before its origin is used, and of bisections of a repair.
 const HALVINGS: u32 = 40;
 
-/// How a goal is constrained.
+/// Constraints of a goal and their handling.
 #[derive(Debug, Clone)]
 pub struct Rules {
-    /// What must hold.
+    /// Conditions on every candidate.
     pub constraints: Arc<Constraints>,
-    /// What is done about candidates for which it does not.
+    /// Treatment of infeasible candidates.
     pub handling: HandlingSpec,
-    /// What is done about goals without a feasible candidate.
+    /// Treatment of goals without a feasible candidate.
     pub on_infeasible: OnInfeasible,
-    /// The joints appended for the previous goal.
+    /// Joints appended for the previous goal; `None` for the first goal.
     pub previous: Option<Vec<f64>>,
 }
 
 impl Rules {
+    /// Checks the combination of handling and treatment of infeasible goals.
+    ///
     /// # Errors
-    /// [`ConstraintError::OutOfRange`] for a parameter of the handling, [`ConstraintError::NothingToAppend`] where
-    /// goals without feasible candidate cannot go as asked.
+    /// [`ConstraintError::OutOfRange`] for a parameter of the handling, [`ConstraintError::NothingToAppend`] if goals
+    /// without a feasible candidate cannot be handled as requested.
     pub fn check(handling: &HandlingSpec, on_infeasible: OnInfeasible) -> Result<(), ConstraintError> {
         let strategy = match handling {
             HandlingSpec::Penalty(_) => None,
@@ -64,7 +66,7 @@ impl Rules {
                 if (1..=1_000_000).contains(max_attempts) {
                     return Ok(());
                 }
-                Err(ConstraintError::OutOfRange { field: "max_attempts", value, expected: "1 to 1000000 are allowed" })
+                Err(ConstraintError::OutOfRange { field: "max_attempts", value, expected: "give 1 to 1000000" })
             }
         }
     }
@@ -83,12 +85,12 @@ pub struct Constrained {
     proposed: Batch,
 }
 
-/// What is to become of a candidate.
+/// Decision about a candidate.
 enum Verdict {
     Execute,
-    /// Executed elsewhere.
+    /// Executed at these joints instead.
     Amend(Vec<f64>),
-    /// Executed as it is, and told worse.
+    /// Executed as it is, with a worse discrepancy; holds the violations.
     Worsen(Vec<f64>),
     Tell(Outcome<'static>),
 }
@@ -113,10 +115,10 @@ impl Constrained {
         Self::with(inner, rules, space, state)
     }
 
-    /// Goes on from a saved state; `inner` was resumed from [`ConstrainedState::inner`].
+    /// Resumes from a saved state; `inner` was resumed from [`ConstrainedState::inner`].
     ///
     /// # Errors
-    /// [`OptimizerError`] if the state's version or shape does not fit.
+    /// [`OptimizerError`] if the state's version or shape does not match.
     pub fn resume(
         inner: Box<dyn Optimizer>,
         rules: Rules,
@@ -137,7 +139,7 @@ impl Constrained {
         matches!(self.rules.handling, HandlingSpec::Repairing { .. } | HandlingSpec::Operators { .. })
     }
 
-    /// What the strategy does with a candidate.
+    /// Applies the strategy to a candidate.
     fn judge(&mut self, id: u64, joints: &[f64]) -> Verdict {
         let proposal = Proposal { joints, origins: self.inner.origins(id), previous: self.rules.previous.as_deref() };
         if self.rules.constraints.is_feasible(&proposal) {
@@ -167,7 +169,7 @@ impl Constrained {
         }
     }
 
-    /// Keeps the smallest total violation seen, to tell the user how far from feasible the search was.
+    /// Records the smallest total violation, which tells the user how far from feasible the search was.
     fn note(&mut self, violations: &[f64]) {
         let total = |v: &[f64]| v.iter().sum::<f64>();
         if self.state.nearest.as_ref().is_none_or(|nearest| total(violations) < total(nearest)) {
@@ -175,8 +177,8 @@ impl Constrained {
         }
     }
 
-    /// The candidate moved to a feasible place: to the boundary seen from the best known (repair), else by halved steps
-    /// from its origin (operators); a random feasible place where neither is known.
+    /// Moves the candidate to a feasible pose: towards the best known one up to the boundary (repairing), or back to
+    /// its origin in halved steps (operators). If neither is known, a random feasible pose is drawn.
     fn moved(&mut self, id: u64, joints: &[f64], max_attempts: u32, repair: bool) -> Verdict {
         let origins = self.inner.origins(id);
         let feasible = |place: &[f64]| self.rules.is_feasible(place, origins);
@@ -203,7 +205,7 @@ impl Constrained {
         let HandlingSpec::Penalty(spec) = &self.rules.handling else { return };
         let previous = self.rules.previous.as_deref();
         let best = self.inner.best();
-        // the best is judged as an individual: what it was bred from is gone
+        // The best is judged as an individual, because its parents are gone.
         let feasible = best.is_some_and(|best| {
             let proposal = Proposal { joints: best.joints, origins: [None; 2], previous };
             best.provenance.is_executed() && self.rules.constraints.is_feasible(&proposal)
@@ -212,15 +214,15 @@ impl Constrained {
     }
 }
 
-/// An infeasible candidate never reaches the target.
+/// Ensures that an infeasible candidate never reaches the target.
 fn beyond_target(space: &SearchSpace, fitness: f64) -> f64 {
     space.target.map_or(fitness, |target| fitness.max(target.next_up()))
 }
 
-/// Stands in where no penalty is used; never read.
+/// Placeholder if no penalty is used; never read.
 const NO_PENALTY: PenaltyKind = PenaltyKind::Death { value: 1.0 };
 
-/// The last feasible place on the way from a feasible `anchor` to an infeasible `joints`, by bisection.
+/// The last feasible pose on the way from a feasible `anchor` to an infeasible `joints`, by bisection.
 fn bisected(anchor: &[f64], joints: &[f64], feasible: impl Fn(&[f64]) -> bool) -> Vec<f64> {
     let at = |t: f64| -> Vec<f64> { anchor.iter().zip(joints).map(|(a, b)| a + t * (b - a)).collect() };
     let (mut low, mut high, mut best) = (0.0, 1.0, anchor.to_vec());
@@ -249,7 +251,7 @@ fn halved(anchor: &[f64], joints: &[f64], feasible: impl Fn(&[f64]) -> bool) -> 
     anchor.to_vec()
 }
 
-/// A random feasible place within the limits, if one is found.
+/// A random feasible pose within the limits; `None` if none is found.
 fn sampled(
     space: &SearchSpace,
     rng: &mut RandomStream,

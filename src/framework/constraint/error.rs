@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConstraintError {
     /// A description contains NaN or infinity.
-    #[error("{field} holds {value}: every number of a constraint must be finite")]
+    #[error("{field} contains {value}: every number of a constraint must be finite")]
     NotFinite {
         /// Field of the description.
         field: &'static str,
@@ -12,7 +12,7 @@ pub enum ConstraintError {
         value: f64,
     },
     /// A size or limit is not positive.
-    #[error("{field} is {value}, it must be above 0")]
+    #[error("{field} is {value}: give a number above 0")]
     NotPositive {
         /// Field of the description.
         field: &'static str,
@@ -30,7 +30,7 @@ pub enum ConstraintError {
         expected: &'static str,
     },
     /// The sides of a box cross.
-    #[error("the box has no inside: {axis} goes from {lower} m to {upper} m after dilatation")]
+    #[error("the box is empty: {axis} goes from {lower} m to {upper} m after dilatation")]
     EmptyBox {
         /// `x`, `y` or `z`.
         axis: &'static str,
@@ -49,7 +49,7 @@ pub enum ConstraintError {
     #[error("a polyhedron needs at least one half-space")]
     NoHalfSpace,
     /// A hull has too few or too many points.
-    #[error("a hull of {found} points: 4 to {limit} are allowed")]
+    #[error("a hull of {found} points: give 4 to {limit}")]
     HullPoints {
         /// Number of points given.
         found: usize,
@@ -63,7 +63,7 @@ pub enum ConstraintError {
         points: usize,
     },
     /// A constraint names a joint that the chain does not move.
-    #[error("constraint names joint {joint:?}, which is not free here: the free joints are {free:?}")]
+    #[error("a constraint names joint {joint:?}, which is not free here: the free joints are {free:?}")]
     UnknownJoint {
         /// Name given.
         joint: String,
@@ -71,7 +71,7 @@ pub enum ConstraintError {
         free: Vec<String>,
     },
     /// A pose has the wrong number of joints.
-    #[error("{field} holds {found} joint values, the chain has {expected}")]
+    #[error("{field} has {found} joint values, but the chain has {expected}")]
     PoseLength {
         /// Field of the description.
         field: &'static str,

@@ -88,7 +88,7 @@ pub(super) fn check(spec: &PenaltySpec) -> Result<(), ConstraintError> {
             Err(ConstraintError::OutOfRange { field, value, expected })
         }
     };
-    let positive = |field, value| above(field, value, 0.0, "a finite number above 0 is needed");
+    let positive = |field, value| above(field, value, 0.0, "give a finite number above 0");
     match spec.penalty {
         PenaltyKind::Death { value } => positive("value", value),
         PenaltyKind::Static { weight, exponent } => positive("weight", weight).and(positive("exponent", exponent)),
@@ -98,7 +98,7 @@ pub(super) fn check(spec: &PenaltySpec) -> Result<(), ConstraintError> {
         PenaltyKind::Adaptive { weight, window, relax, tighten } => {
             positive("weight", weight)?;
             positive("window", f64::from(window))?;
-            let factor = "a factor above 1 is needed, other than the one in the opposite direction";
+            let factor = "give a factor above 1, different from the one in the opposite direction";
             above("relax", relax, 1.0, factor)?;
             above("tighten", tighten, 1.0, factor)?;
             if (relax - tighten).abs() < f64::EPSILON {
@@ -112,7 +112,7 @@ pub(super) fn check(spec: &PenaltySpec) -> Result<(), ConstraintError> {
             if cooling > 0.0 && cooling < 1.0 {
                 return Ok(());
             }
-            Err(ConstraintError::OutOfRange { field: "cooling", value: cooling, expected: "0 to 1 is needed" })
+            Err(ConstraintError::OutOfRange { field: "cooling", value: cooling, expected: "give 0 to 1" })
         }
     }
 }

@@ -1,23 +1,23 @@
-//! What the judge of one goal remembers; saved and resumed as it is.
+//! State of the judge of one goal; saved and resumed as it is.
 
 use super::penalty::PenaltyState;
 use crate::method::per_goal::{Incumbent, OptimizerError, OptimizerState, SearchSpace, Tally};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
-/// Version of [`ConstrainedState`]; changes when its meaning does.
+/// Version of [`ConstrainedState`]; incremented when its meaning changes.
 pub(super) const STATE_VERSION: u32 = 1;
 
-/// A candidate handed out and not told yet.
+/// A candidate handed out and not reported back yet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Waiting {
     pub id: u64,
     pub joints: Vec<f64>,
-    /// One a constraint; empty where the candidate is feasible.
+    /// One violation per constraint; empty if the candidate is feasible.
     pub violations: Vec<f64>,
 }
 
-/// Everything an optimiser under constraints remembers.
+/// Complete state of an optimiser under constraints.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ConstrainedState {
@@ -26,23 +26,23 @@ pub struct ConstrainedState {
     pub(super) rng: RandomStream,
     pub(super) penalty: PenaltyState,
     pub(super) generation: u64,
-    /// Rejections in a row.
+    /// Number of consecutive rejections.
     pub(super) attempts: u32,
     pub(super) waiting: Vec<Waiting>,
     pub(super) known: Option<Incumbent>,
-    /// The smallest violations of an infeasible candidate, one a constraint.
+    /// The smallest violations of an infeasible candidate, one per constraint.
     pub(super) nearest: Option<Vec<f64>>,
     pub(super) tally: Tally,
 }
 
 impl ConstrainedState {
-    /// The state of the optimiser under constraints.
+    /// State of the constrained optimiser.
     #[must_use]
     pub fn inner(&self) -> &OptimizerState {
         &self.inner
     }
 
-    /// Name of the method under constraints.
+    /// Name of the constrained method.
     #[must_use]
     pub fn method(&self) -> &'static str {
         self.inner.method()

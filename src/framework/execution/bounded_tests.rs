@@ -1,4 +1,4 @@
-//! Methods that own a run under constraints: nothing forbidden is executed, and what is left is told.
+//! Whole-run methods under constraints: nothing forbidden is executed, and unreached goals are reported.
 
 use super::*;
 use crate::method::per_goal::{Batch, Provenance, StopReason};
@@ -19,7 +19,7 @@ fn problem(preset: &str, method: Value, execution: &Value) -> Problem {
     problem
 }
 
-/// Every executed pose with the pose before it, and how the run ended.
+/// Every executed pose with the previous pose, and how the run ended.
 type Executed = (Vec<(Option<Vec<f64>>, Vec<f64>)>, Result<RunResult, ProblemError>);
 
 fn executed(problem: &Problem, seed: u64, most: usize) -> Executed {
@@ -27,7 +27,7 @@ fn executed(problem: &Problem, seed: u64, most: usize) -> Executed {
     let mut world = iet.world().unwrap();
     let mut batch = Batch::new(iet.chain().len(), 1);
     let mut scratch = vec![0.0; iet.world_features()];
-    // Where the wall is put back the arm returns to where it started, too.
+    // If the wall is reset, the arm also returns to its start.
     let returns = matches!(problem.world, WorldSpec::Coverage(_));
     let mut all: Vec<(Option<Vec<f64>>, Vec<f64>)> = Vec::new();
     while !iet.is_finished() && all.len() < most {
@@ -81,7 +81,7 @@ fn goals_outside_the_region_are_out_of_reach_with_their_residual() {
     let (_, result) = executed(&bounded, 4, 200);
     let result = result.unwrap();
     assert!(result.valid && result.goals.iter().all(|goal| goal.feasible));
-    // goals 2, 3 and 4 lie at y = -589, -621 and -554 mm: the box ends at -520
+    // Goals 2, 3 and 4 are at y = -589, -621 and -554 mm; the box ends at -520.
     for goal in [2, 3, 4] {
         assert_eq!(result.goals[goal].stop_reason, StopReason::OutOfReach, "goal {goal}");
     }

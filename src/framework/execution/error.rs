@@ -1,103 +1,103 @@
-//! Why a problem cannot be executed.
+//! Reasons why a problem cannot be executed.
 
 use crate::constraint::ConstraintError;
 use crate::method::per_goal::OptimizerError;
 use crate::robot::{ChainError, ModelError};
 use crate::world::WorldError;
 
-/// A problem that cannot be run or gone on with.
+/// A problem cannot be started or resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum ProblemError {
-    /// The URDF.
+    /// The URDF is invalid.
     #[error("robot: {0}")]
     Model(#[from] ModelError),
-    /// The chain.
+    /// The robot description is invalid.
     #[error("robot: {0}")]
     Chain(#[from] ChainError),
-    /// The world.
+    /// The world is invalid.
     #[error("world: {0}")]
     World(#[from] WorldError),
-    /// The method.
+    /// The method is invalid.
     #[error("method: {0}")]
     Optimizer(#[from] OptimizerError),
-    /// The constraints.
+    /// The constraints are invalid.
     #[error("constraints: {0}")]
     Constraint(#[from] ConstraintError),
-    /// A goal feature the world does not show.
-    #[error("the goals need feature {feature:?}, which the world does not show; it shows {shown:?}")]
+    /// The world does not have a feature of the goals.
+    #[error("the goals need feature {feature:?}, which the world does not have; it has {shown:?}")]
     UnknownFeature {
-        /// The feature of the goals.
+        /// Name of the missing feature.
         feature: String,
-        /// The world's features.
+        /// Names of the world's features.
         shown: Vec<String>,
     },
-    /// Goals and world measure in different units.
+    /// Goals and world use different units.
     #[error("feature {feature:?} is in {goal_unit:?} in the goals and in {world_unit:?} in the world: use one unit")]
     Unit {
-        /// The feature.
+        /// Name of the feature.
         feature: String,
         /// Unit of the goals.
         goal_unit: String,
         /// Unit of the world.
         world_unit: String,
     },
-    /// A method that does not fit the world.
+    /// The method does not suit the world.
     #[error("method {method} needs {expected}")]
     Method {
         /// Method name.
         method: &'static str,
-        /// What it needs.
+        /// Requirement of the method.
         expected: &'static str,
     },
-    /// A limit or threshold out of its range.
+    /// A limit or threshold is out of range.
     #[error("{field} is {value}: {expected}")]
     Value {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// The value given.
+        /// Value given.
         value: f64,
-        /// What is expected.
+        /// Allowed range.
         expected: &'static str,
     },
-    /// A saved run of another version.
-    #[error("the saved run has version {found}, this program reads {expected}: run the job again")]
+    /// The saved run has another version.
+    #[error("the saved run has version {found}, but this program reads {expected}: run the job again")]
     Version {
-        /// Version of the state.
+        /// Version of the saved state.
         found: u32,
-        /// Version understood.
+        /// Version that this program reads.
         expected: u32,
     },
-    /// A saved run of another problem.
-    #[error("the saved run has {found} {what}, the problem has {expected}: it belongs to another job")]
+    /// The saved run belongs to another problem.
+    #[error("the saved run has {found} {what}, but the problem has {expected}: it belongs to another job")]
     Shape {
-        /// What does not fit.
+        /// Property that does not match.
         what: &'static str,
-        /// Number found.
+        /// Number in the saved state.
         found: usize,
-        /// Number needed.
+        /// Number required by the problem.
         expected: usize,
     },
-    /// A trial of another robot, or of other features, among the earlier ones.
+    /// An earlier trial belongs to another robot or has other features.
     #[error(
         "earlier trial {trial} has {found} {what}, the problem has {expected}: give trials of the same robot and \
          features, or none"
     )]
     Earlier {
-        /// Its index from 0.
+        /// Index of the trial, from 0.
         trial: usize,
-        /// What does not fit.
+        /// Property that does not match.
         what: &'static str,
-        /// Number found.
+        /// Number in the saved state.
         found: usize,
-        /// Number needed.
+        /// Number required by the problem.
         expected: usize,
     },
-    /// Every trial of a goal failed or was not seen.
+    /// No trial of a goal was executed and observed.
     #[error("goal {goal}: none of {trials} trials was executed and seen; check the robot, its limits and its sensors")]
     NothingExecuted {
         /// Goal index from 0.
         goal: usize,
-        /// Trials made.
+        /// Number of trials made.
         trials: u64,
     },
     /// No candidate of a goal satisfied the constraints.
@@ -109,15 +109,15 @@ pub enum ProblemError {
     Infeasible {
         /// Goal index from 0.
         goal: usize,
-        /// The smallest violations met, one a constraint, m or rad.
+        /// The smallest violations found, one per constraint, m or rad.
         nearest: Vec<f64>,
-        /// Evaluations of the run until then.
+        /// Number of evaluations of the run so far.
         evaluations: u64,
     },
-    /// Asked for a result too early.
+    /// The result was requested before the end of the run.
     #[error("the run is at goal {goal} of {goals}: it has no result yet")]
     Unfinished {
-        /// Goal being searched.
+        /// Index of the current goal, from 0.
         goal: usize,
         /// Number of goals.
         goals: usize,

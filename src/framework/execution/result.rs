@@ -1,90 +1,93 @@
-//! What an execution yields, goal by goal, and what can be told of one that runs.
+//! Results of an execution, goal by goal, and progress of a running one.
 
 use crate::method::per_goal::{Provenance, StopReason, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use utoipa::ToSchema;
 
-/// A discrepancy that was the best so far, and when.
+/// An improvement of the best discrepancy.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct TracePoint {
-    /// Evaluations of this goal until then, this one included.
+    /// Number of evaluations for this goal so far, including this one.
     pub evaluations: u64,
-    /// Best discrepancy since the goal began.
+    /// Best discrepancy since the start of the goal.
     pub discrepancy: f64,
 }
 
-/// How one goal ended.
+/// Result of one goal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct GoalResult {
     /// Goal index from 0.
     pub index: usize,
-    /// Evaluations of this goal.
+    /// Number of evaluations for this goal.
     pub evaluations: u64,
-    /// Trials of this goal that could not be executed; they are no evaluations.
+    /// Number of trials of this goal that could not be executed; they do not count as evaluations.
     pub failures: u64,
     /// Discrepancy of the whole partial observation O_1..O_j against X_1..X_j, features' unit.
     pub discrepancy: f64,
-    /// What the winner really does, where `discrepancy` is the value of one that was never executed by the search.
+    /// Discrepancy of the winner when executed; `None` unless `discrepancy` is an estimate for a winner that the search
+    /// never executed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub true_discrepancy: Option<f64>,
-    /// Why the search for this goal ended.
+    /// Reason why the search for this goal ended.
     pub stop_reason: StopReason,
     /// U_j: free joints in gene order, rad or m.
     pub joints: Vec<f64>,
-    /// O_j: the features seen, in the goals' order.
+    /// O_j: the observed features, in the goals' order.
     pub observation: Vec<f64>,
-    /// Where the discrepancy comes from.
+    /// Origin of the discrepancy.
     pub provenance: Provenance,
-    /// Whether the joints satisfy the constraints; true where there are none.
+    /// Whether the joints satisfy the constraints; true if there are none.
     #[serde(default = "satisfied")]
     pub feasible: bool,
-    /// Where the fitness values of this goal come from, by count.
+    /// Number of fitness values of this goal by origin.
     #[serde(default)]
     pub tally: Tally,
-    /// Convergence: one point an improvement, thinned out evenly beyond 256.
+    /// Convergence: one point per improvement, thinned evenly beyond 256.
     pub trace: Vec<TracePoint>,
 }
 
-/// Where a run stands.
+/// Progress of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Progress {
-    /// Index of the goal being searched; equal to `goals` when finished.
+    /// Index of the goal being searched; equal to `goals` if finished.
     pub goal_index: usize,
     /// Number of goals n.
     pub goals: usize,
-    /// Evaluations of all goals so far.
+    /// Number of evaluations over all goals so far.
     pub evaluations: u64,
-    /// Evaluations of the goal being searched.
+    /// Number of evaluations for the current goal.
     pub goal_evaluations: u64,
-    /// Best discrepancy of the goal being searched.
+    /// Best discrepancy for the current goal; `None` before the first evaluation.
     pub best_discrepancy: Option<f64>,
     /// Whether every goal has ended.
     pub finished: bool,
-    /// The goals that have ended.
+    /// Results of the goals that have ended.
     pub results: Vec<GoalResult>,
 }
 
-/// A finished run: one seed.
+/// A finished run of one seed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunResult {
-    /// The seed.
+    /// Seed of the run.
     pub seed: u64,
-    /// Evaluations of all goals.
+    /// Number of evaluations over all goals.
     pub evaluations: u64,
-    /// Discrepancy at the last goal, features' unit.
+    /// Discrepancy after the last goal, features' unit.
     pub discrepancy: f64,
-    /// What the last goal's winner really does, where `discrepancy` is the value of one that was never executed.
+    /// Discrepancy of the last goal's winner when executed; `None` unless `discrepancy` is an estimate for a winner
+    /// that the search never executed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub true_discrepancy: Option<f64>,
-    /// Whether the last goal's joints satisfy the constraints; true where there are none.
+    /// Whether the last goal's joints satisfy the constraints; true if there are none.
     #[serde(default = "satisfied")]
     pub valid: bool,
-    /// Where the fitness values of all goals come from, by count.
+    /// Number of fitness values of all goals by origin.
     #[serde(default)]
     pub tally: Tally,
-    /// Coverage worlds: over the last goal's executed candidates, the percentage nearest 100; for a method that owns
-    /// the run, what the trials whose effect stays have painted. 0 where there is none.
+    /// Painted share, %. Goal-by-goal methods: the value closest to 100 among the last goal's executed candidates.
+    /// Whole-run methods: the share after all accepted trials; 0 if none was accepted. `None` unless the world is a
+    /// surface.
     pub painted_percent: Option<f64>,
     /// All goals, in order.
     pub goals: Vec<GoalResult>,
@@ -97,7 +100,7 @@ fn satisfied() -> bool {
 }
 
 impl RunResult {
-    /// U_1..U_n, one row a goal.
+    /// U_1..U_n, one row per goal.
     #[must_use]
     pub fn waypoints(&self) -> Vec<Vec<f64>> {
         self.goals.iter().map(|g| g.joints.clone()).collect()
@@ -118,10 +121,10 @@ pub(super) fn digest(goals: &[GoalResult]) -> String {
     hex::encode(hash.finalize())
 }
 
-/// Most points a trace keeps.
+/// Maximum number of points in a trace.
 const TRACE_LIMIT: usize = 256;
 
-/// Records an improvement; beyond the limit every second point but the last goes.
+/// Records an improvement; beyond the limit, every second point except the last is dropped.
 pub(super) fn record(trace: &mut Vec<TracePoint>, point: TracePoint) {
     trace.push(point);
     if trace.len() > TRACE_LIMIT {

@@ -1,4 +1,4 @@
-//! What a run remembers: saved at any point, resumed with the same bits.
+//! State of a run: saved at any point, resumed bit for bit.
 
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
@@ -6,7 +6,7 @@ use crate::method::per_goal::{OptimizerState, StopReason};
 use crate::method::whole_run::Trial;
 use serde::{Deserialize, Serialize};
 
-/// Version of [`IetState`]; changes when its meaning does.
+/// Version of [`IetState`]; incremented when its meaning changes.
 pub(super) const STATE_VERSION: u32 = 1;
 
 /// A saved run.
@@ -20,12 +20,12 @@ pub struct IetState {
     pub(super) goal: GoalState,
     pub(super) painted: Option<f64>,
     pub(super) optimizer: Option<OptimizerState>,
-    /// The trials of a method that owns the run.
+    /// Trials of a whole-run method.
     #[serde(default)]
     pub(super) log: Vec<Trial>,
 }
 
-/// The goal being searched.
+/// State of the goal being searched.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct GoalState {
     pub evaluations: u64,
@@ -33,26 +33,26 @@ pub(super) struct GoalState {
     pub best: Option<f64>,
     pub painted: Option<f64>,
     pub trace: Vec<TracePoint>,
-    /// Evaluations executed on a robot.
+    /// Number of evaluations executed on a robot.
     pub real: u64,
-    /// Why the search is over, while its winner waits to be executed.
+    /// Reason why the search is over, while its winner waits to be executed.
     pub ended: Option<StopReason>,
 }
 
 impl IetState {
-    /// The seed of the saved run.
+    /// Seed of the saved run.
     #[must_use]
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// Evaluations until it was saved.
+    /// Number of evaluations made before it was saved.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    /// Whether this state can be one of a problem with n goals, that many genes and m features.
+    /// Checks that this state can belong to a problem with n goals and the given numbers of genes and features.
     pub(super) fn check(&self, owned: bool, goals: usize, genes: usize, features: usize) -> Result<(), ProblemError> {
         if self.version != STATE_VERSION {
             return Err(ProblemError::Version { found: self.version, expected: STATE_VERSION });

@@ -133,7 +133,7 @@ pub enum ExperimentError {
         repetitions: u32,
     },
     /// There are too many runs.
-    #[error("{cells} cells x {repetitions} repetitions are more than {limit} runs: split the experiment")]
+    #[error("{cells} cells x {repetitions} repetitions exceed the limit of {limit} runs: split the experiment")]
     TooManyRuns {
         /// Number of cells after expansion.
         cells: usize,

@@ -1,8 +1,9 @@
 //! The state of an experiment: its plan and its finished runs.
 //!
 //! # Invariants
-//! - Rows are kept by (cell, repetition), so neither the order in which runs finish nor their thread can be seen.
-//! - A run is recorded once; recording the same row again changes nothing, another row for the same run is refused.
+//! - Rows are stored by (cell, repetition), so the order in which runs finish and their threads are not observable.
+//! - A run is recorded once; recording the same row again changes nothing, and a different row for the same run is an
+//!   error.
 
 use super::{Cell, CellResult, Plan};
 use crate::method::per_goal::Tally;
@@ -10,79 +11,80 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
-/// Which run of an experiment.
+/// Id of a run within an experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ToSchema)]
 #[schema(as = ExperimentRun)]
 pub struct RunId {
-    /// Cell index from 0.
+    /// Index of the cell, from 0.
     pub cell: u32,
-    /// Repetition from 0; the seed is the plan's seed plus this.
+    /// Repetition, from 0; its seed is the plan's seed plus this.
     pub repetition: u32,
 }
 
-/// One finished run in short.
+/// Summary of one finished run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunRow {
-    /// Which run.
+    /// Id of the run.
     #[serde(flatten)]
     pub id: RunId,
-    /// Its seed.
+    /// Seed of the repetition.
     pub seed: u64,
-    /// Executions of a candidate.
+    /// Number of executed candidates.
     pub evaluations: u64,
-    /// Discrepancy of the last goal's winner as the method believed it (features' unit).
+    /// Discrepancy of the last goal's winner according to the method (features' unit).
     pub discrepancy: f64,
-    /// What that winner really does, where the method never executed it.
+    /// Discrepancy of that winner when executed; `None` unless the method never executed it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub true_discrepancy: Option<f64>,
-    /// Where the world has cells: over the last goal's executed candidates the percentage nearest 100.
+    /// Painted share, %; `None` unless the world is a surface. See
+    /// [`RunResult::painted_percent`](crate::execution::RunResult::painted_percent).
     pub painted_percent: Option<f64>,
-    /// The last goal had no feasible candidate.
+    /// Whether the last goal had no feasible candidate.
     pub invalid: bool,
-    /// Evaluations of each goal, in order.
+    /// Evaluations per goal, in order.
     pub evaluations_per_goal: Vec<u64>,
-    /// Where the run's fitness values came from.
+    /// Number of fitness values by origin.
     pub provenance: Tally,
-    /// SHA-256 of the run's joints, evaluations and discrepancy bits.
+    /// SHA-256 of the run's joints, evaluations and discrepancy, to the last bit.
     pub digest: String,
 }
 
-/// Why a row is refused.
+/// Reasons why a row is rejected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecordError {
     /// The plan has no such run.
     #[error("cell {}, repetition {} is outside {cells} cells x {repetitions} repetitions", id.cell, id.repetition)]
     Unplanned {
-        /// The run.
+        /// Id of the run.
         id: RunId,
-        /// Cells planned.
+        /// Number of cells in the plan.
         cells: usize,
-        /// Repetitions planned.
+        /// Number of repetitions in the plan.
         repetitions: u32,
     },
-    /// The seed is not the plan's.
+    /// The seed differs from the plan's.
     #[error("cell {}, repetition {} ran seed {found}, the plan says {expected}", id.cell, id.repetition)]
     Seed {
-        /// The run.
+        /// Id of the run.
         id: RunId,
-        /// Seed of the row.
+        /// Seed in the row.
         found: u64,
-        /// Seed planned.
+        /// Seed in the plan.
         expected: u64,
     },
-    /// A second, different result of the same run: whatever made it is not deterministic.
+    /// The run already has a different result, so its computation is not deterministic.
     #[error("cell {}, repetition {} has digest {recorded} already, not {found}", id.cell, id.repetition)]
     Conflict {
-        /// The run.
+        /// Id of the run.
         id: RunId,
-        /// Digest recorded.
+        /// Digest of the recorded row.
         recorded: String,
         /// Digest of the new row.
         found: String,
     },
 }
 
-/// A plan with the runs finished so far.
+/// A plan with its finished runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Experiment {
     plan: Plan,
@@ -90,41 +92,41 @@ pub struct Experiment {
 }
 
 impl Experiment {
-    /// Nothing has run yet.
+    /// An experiment without finished runs.
     #[must_use]
     pub fn new(plan: Plan) -> Self {
         Self { plan, rows: BTreeMap::new() }
     }
 
-    /// An experiment whose `rows` are finished, in any order.
+    /// An experiment with finished `rows`, in any order.
     ///
     /// # Errors
-    /// [`RecordError`] for the first row that is not of this plan.
+    /// [`RecordError`] for the first row that does not belong to this plan.
     pub fn resume(plan: Plan, rows: impl IntoIterator<Item = RunRow>) -> Result<Self, RecordError> {
         let mut experiment = Self::new(plan);
         rows.into_iter().try_for_each(|row| experiment.record(row))?;
         Ok(experiment)
     }
 
-    /// What is to be run.
+    /// The plan of all runs.
     #[must_use]
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Finished runs by cell, then repetition.
+    /// Finished runs, ordered by cell, then repetition.
     #[must_use]
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &RunRow> {
         self.rows.values()
     }
 
-    /// Finished runs of one cell by repetition.
+    /// Finished runs of one cell, ordered by repetition.
     pub fn rows_of(&self, cell: u32) -> impl Iterator<Item = &RunRow> {
         let of = |repetition| RunId { cell, repetition };
         self.rows.range(of(0)..=of(u32::MAX)).map(|(_, row)| row)
     }
 
-    /// Runs not finished yet, repetition by repetition over all cells: a table is complete early, if coarse.
+    /// Pending runs, repetition by repetition over all cells, so that the table is complete early, if coarse.
     pub fn pending(&self) -> impl Iterator<Item = RunId> {
         let runs = (0..self.plan.repetitions)
             .flat_map(|repetition| (0u32..).zip(&self.plan.cells).map(move |(cell, _)| RunId { cell, repetition }));
@@ -140,7 +142,7 @@ impl Experiment {
     /// Adds a finished run.
     ///
     /// # Errors
-    /// [`RecordError`] if the row is not of this plan or contradicts what is recorded.
+    /// [`RecordError`] if the row does not belong to this plan or contradicts a recorded one.
     pub fn record(&mut self, row: RunRow) -> Result<(), RecordError> {
         let id = row.id;
         if self.plan.cell(id).is_none() {
@@ -161,7 +163,7 @@ impl Experiment {
         }
     }
 
-    /// The table so far: one result a cell, in the plan's order.
+    /// The table so far: one result per cell, in the plan's order.
     #[must_use]
     pub fn table(&self) -> Vec<CellResult> {
         (0u32..).zip(&self.plan.cells).map(|(index, cell)| CellResult::of(cell, self.rows_of(index))).collect()
@@ -169,19 +171,19 @@ impl Experiment {
 }
 
 impl Plan {
-    /// Cells x repetitions.
+    /// Number of runs: cells x repetitions.
     #[must_use]
     pub fn runs(&self) -> u64 {
         self.cells.len() as u64 * u64::from(self.repetitions)
     }
 
-    /// The cell a run belongs to; none where the plan has no such run.
+    /// The cell that a run belongs to; `None` if the plan has no such run.
     #[must_use]
     pub fn cell(&self, id: RunId) -> Option<&Cell> {
         self.cells.get(id.cell as usize).filter(|_| id.repetition < self.repetitions)
     }
 
-    /// The seed of a run; cells share their seeds.
+    /// Seed of a run; all cells share their seeds.
     #[must_use]
     pub fn seed_of(&self, id: RunId) -> u64 {
         self.seed.wrapping_add(u64::from(id.repetition))

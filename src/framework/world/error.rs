@@ -10,7 +10,7 @@ pub enum WorldError {
         found: String,
     },
     /// A grid has no cells, or too many.
-    #[error("a surface of {columns} columns and {rows} rows has {cells} cells: 1 to {limit} are allowed")]
+    #[error("a surface of {columns} columns and {rows} rows has {cells} cells: give 1 to {limit}")]
     Cells {
         /// Number of columns.
         columns: u32,
@@ -22,7 +22,7 @@ pub enum WorldError {
         limit: u64,
     },
     /// The radius of the tool is not positive or too large.
-    #[error("radius_m is {found:?}: give a reach above 0 m and of at most {limit} m")]
+    #[error("radius_m is {found:?}: give a radius above 0 and up to {limit} m")]
     Radius {
         /// Radius given, m.
         found: f64,
@@ -30,7 +30,7 @@ pub enum WorldError {
         limit: f64,
     },
     /// A coordinate is not finite or implausibly large.
-    #[error("{field} holds {value:?}: give metres, at most {limit} either way")]
+    #[error("{field} contains {value:?}: give metres within +/-{limit}")]
     Length {
         /// Name of the field.
         field: &'static str,
@@ -40,7 +40,7 @@ pub enum WorldError {
         limit: f64,
     },
     /// All cells of a row or column are at the same place.
-    #[error("{field} is zero for {count} cells: they would lie on one another")]
+    #[error("{field} is zero for {count} cells: they would coincide")]
     ZeroStep {
         /// `column_step_m` or `row_step_m`.
         field: &'static str,

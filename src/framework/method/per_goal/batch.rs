@@ -1,4 +1,4 @@
-//! Candidates on their way from optimiser to world: flat, reused, so that a batch costs no allocation.
+//! Candidates on their way from optimiser to world: flat and reused, so that a batch needs no allocation.
 
 /// Up to `capacity` candidates of n genes.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,7 +17,7 @@ impl Batch {
         Self { genes, capacity, ids: Vec::with_capacity(capacity), joints: Vec::with_capacity(capacity * genes) }
     }
 
-    /// Empties the batch and sets how many it may take.
+    /// Empties the batch and sets its capacity.
     pub fn clear(&mut self, capacity: usize) {
         self.ids.clear();
         self.joints.clear();
@@ -27,32 +27,32 @@ impl Batch {
     /// Adds a candidate.
     ///
     /// # Panics
-    /// If `joints` has another length than the batch's genes.
+    /// If `joints` does not have as many values as the batch has genes.
     pub fn push(&mut self, id: u64, joints: &[f64]) {
         assert_eq!(joints.len(), self.genes, "a candidate has one value a gene");
         self.ids.push(id);
         self.joints.extend_from_slice(joints);
     }
 
-    /// Whether no more is taken.
+    /// Whether the capacity is reached.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.ids.len() >= self.capacity
     }
 
-    /// Number of candidates held.
+    /// Number of candidates.
     #[must_use]
     pub fn len(&self) -> usize {
         self.ids.len()
     }
 
-    /// Whether it holds none.
+    /// Whether there are no candidates.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
     }
 
-    /// The candidates: id and joints (rad or m).
+    /// Iterates over the candidates: id and joints (rad or m).
     #[must_use]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (u64, &[f64])> {
         self.ids.iter().copied().zip(self.joints.chunks_exact(self.genes))

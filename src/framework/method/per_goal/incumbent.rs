@@ -1,4 +1,4 @@
-//! The hall of fame: the best individual of all generations.
+//! The hall of fame: the best individual over all generations.
 
 use super::{Best, Provenance};
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ impl Incumbent {
         }
     }
 
-    /// The better of the hall of fame and the best of the current population; the hall's where they are equal.
+    /// The better of the hall of fame and the current population's best; the former on ties.
     pub fn or_better<'a>(hall: Option<&'a Self>, current: Option<Best<'a>>) -> Option<Best<'a>> {
         match (hall.map(Self::as_best), current) {
             (Some(hall), Some(current)) => Some(if current.fitness < hall.fitness { current } else { hall }),

@@ -1,8 +1,8 @@
-//! What every population remembers of a candidate between asking and telling.
+//! Record of a candidate between asking and telling, shared by all population methods.
 
 use serde::{Deserialize, Serialize};
 
-/// A candidate that has no fitness yet: the id it was handed out under, and its row in the population.
+/// A candidate without a fitness: the id under which it was handed out, and its row in the population.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Waiting {
     pub id: u64,

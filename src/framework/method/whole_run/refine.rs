@@ -5,10 +5,10 @@
 use super::space::Space;
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// Value, gradient and an approximate Hessian of what is minimised.
+/// Value, gradient and approximate Hessian of the objective.
 #[derive(Debug, Clone)]
 pub struct Local {
-    /// The value.
+    /// Value of the objective.
     pub value: f64,
     /// Gradient, d values.
     pub gradient: Vec<f64>,
@@ -24,7 +24,7 @@ impl Local {
     }
 }
 
-/// What is minimised: at a pose, where its value is less than the bound, fills in the rest and says true.
+/// Objective: if its value at the pose is below the bound, fills in the rest and returns true.
 pub type Function<'a> = dyn FnMut(&[f64], f64, &mut Local) -> bool + 'a;
 
 /// Moves `pose` downhill for at most `steps` evaluations of `function`; returns the value reached.
@@ -65,7 +65,7 @@ pub fn refine(space: &Space, pose: &mut [f64], steps: usize, function: &mut Func
     here.value
 }
 
-/// The step of the joints that may move; none when no joint may or the system cannot be solved.
+/// The step of the joints that may move; `None` if none may or the system cannot be solved.
 fn damped_step(space: &Space, pose: &[f64], local: &Local, damping: f64) -> Option<Vec<f64>> {
     let d = pose.len();
     let at_limit = |j: usize| {

@@ -26,14 +26,14 @@ const RADIUS_DEG: f64 = 9.0;
 const LENGTH_DEG: f64 = 20.0;
 const PRIOR_HITS: f64 = 0.25;
 const PRIOR_TRIALS: f64 = 1.0;
-/// Beyond this squared share of the radius a ball ends.
+/// Squared distance, relative to the radius, beyond which a ball ends.
 const FAR: f64 = 4.0;
-/// A gain that was not kept leaves this share of its pose's survival.
+/// Share of a pose's survival that remains after a gain that was not accepted.
 const REFUSED: f64 = 0.2;
 const MISSES: u32 = 30;
 const SHRINK: f64 = 0.85;
 
-/// By how much a pose is nearer to the middle of the joints' ranges than poses are on average, in -2/3..1/3.
+/// How much closer a pose is to the middle of the joint ranges than poses are on average, in -2/3..1/3.
 fn amid(space: &Space, pose: &[f64]) -> f64 {
     let square = |(axis, q): (&Axis, &f64)| {
         let width = axis.upper - axis.lower;
@@ -56,12 +56,12 @@ pub struct SearchIet {
     verdicts: Vec<(usize, bool, bool)>,
     /// Where poses lead, where cells are seen.
     predictor: Option<CellPredictor>,
-    /// Per pose the poses in its ball, with B.
+    /// For each pose, the poses in its ball, with B.
     near: Vec<Vec<(u32, f64)>>,
 }
 
 impl SearchIet {
-    /// A run for `goals` (n rows, the share in the first column) over `space`; `grid` where the cells are seen.
+    /// A run for `goals` (n rows, the share in the first column) over `space`; with `grid` if cells are observed.
     #[must_use]
     pub fn new(
         spec: CoverSpec,

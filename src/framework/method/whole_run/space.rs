@@ -1,4 +1,4 @@
-//! The joint space a method searches: limits, kinds, home and forbidden poses; identification moves follow from it.
+//! The joint space that a method searches: limits, kinds, home and forbidden poses, and the identification moves.
 
 use crate::random::RandomStream;
 use crate::robot::{Chain, Gene, JointKind};
@@ -7,39 +7,39 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::sync::Arc;
 
-/// Bisections of the way back into what is allowed.
+/// Number of bisections on the way back to an allowed pose.
 const BISECTIONS: u32 = 12;
 
-/// Says whether a pose (rad or m) may be executed.
+/// Predicate that says whether a pose (rad or m) may be executed.
 pub type Allows = Arc<dyn Fn(&[f64]) -> bool + Send + Sync>;
 
-/// One joint.
+/// One joint of the search space.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// Lower limit, rad or m.
     pub lower: f64,
     /// Upper limit, rad or m.
     pub upper: f64,
-    /// Where the joint starts, rad or m.
+    /// Start position, rad or m.
     pub home: f64,
-    /// Whether a position is an angle.
+    /// Whether positions are angles.
     pub revolute: bool,
 }
 
 impl Axis {
-    /// Radians per unit of this joint when distances are compared: 1 for angles; a whole stroke counts as pi.
+    /// Radians per unit of this joint for distances: 1 for angles; a whole stroke counts as pi.
     #[must_use]
     pub fn scale(&self) -> f64 {
         if self.revolute || self.upper <= self.lower { 1.0 } else { PI / (self.upper - self.lower) }
     }
 }
 
-/// All joints, in gene order, and where they may go.
+/// All joints, in gene order, and the allowed poses.
 #[derive(Clone)]
 pub struct Space {
     /// The d joints.
     pub axes: Vec<Axis>,
-    /// What a pose inside the limits must pass besides; none where every pose may be executed.
+    /// Additional condition on poses inside the limits; `None` if every pose may be executed.
     allows: Option<Allows>,
 }
 
@@ -50,7 +50,7 @@ impl fmt::Debug for Space {
 }
 
 impl Space {
-    /// The free joints of `chain`, from its home: every pose inside the limits.
+    /// The free joints of `chain`, from its home; every pose inside the limits is allowed.
     #[must_use]
     pub fn of(chain: &Chain) -> Self {
         let axis = |(gene, &home): (&Gene, &f64)| Axis {
@@ -62,13 +62,13 @@ impl Space {
         Self::new(chain.genes().iter().zip(chain.home()).map(axis).collect())
     }
 
-    /// Every pose inside the limits of `axes`.
+    /// Every pose inside the limits of `axes` is allowed.
     #[must_use]
     pub fn new(axes: Vec<Axis>) -> Self {
         Self { axes, allows: None }
     }
 
-    /// Only those that pass `allows`.
+    /// Restricts the space to poses that pass `allows`.
     #[must_use]
     pub fn only(self, allows: Allows) -> Self {
         Self { allows: Some(allows), ..self }
@@ -86,7 +86,7 @@ impl Space {
         self.axes.len()
     }
 
-    /// Whether there is no joint.
+    /// Whether there are no joints.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.axes.is_empty()
@@ -114,14 +114,14 @@ impl Space {
         on_the_way(inside, pose);
     }
 
-    /// The starting pose, inside the limits.
+    /// Start pose, clamped to the limits.
     #[must_use]
     pub fn home(&self) -> Vec<f64> {
         self.axes.iter().map(|a| a.home.clamp(a.lower, a.upper)).collect()
     }
 
-    /// The `index`-th identification pose: home, then home with joint `index - 1` moved by `step` (rad, or the like
-    /// share of a stroke) towards the side with room, up to the limit.
+    /// The `index`-th identification pose: home, then home with joint `index - 1` moved by `step` (rad, or the
+    /// equivalent share of a stroke) towards the side with more room, up to the limit.
     #[must_use]
     pub fn identification(&self, index: usize, step: f64) -> Option<Vec<f64>> {
         let home = self.home();
@@ -131,8 +131,8 @@ impl Space {
         }
     }
 
-    /// `pose` with one joint moved by `step` (rad, or the like share of a stroke) towards the side with room, up to the
-    /// limit.
+    /// `pose` with one joint moved by `step` (rad, or the equivalent share of a stroke) towards the side with more
+    /// room, up to the limit.
     #[must_use]
     pub fn moved(&self, pose: &[f64], joint: usize, step: f64) -> Vec<f64> {
         let (axis, at) = (self.axes[joint], pose[joint]);
@@ -143,14 +143,15 @@ impl Space {
         moved
     }
 
-    /// A pose uniform in the limits.
+    /// Writes a uniformly random pose within the limits.
     pub fn uniform(&self, random: &mut RandomStream, pose: &mut [f64]) {
         for (value, axis) in pose.iter_mut().zip(&self.axes) {
             *value = random.between(axis.lower, axis.upper);
         }
     }
 
-    /// `centre` moved by a Gaussian of standard deviation `spread` (rad or share of a stroke), into the limits.
+    /// Writes `centre` plus a Gaussian of standard deviation `spread` (rad or share of a stroke), clamped to the
+    /// limits.
     pub fn near(&self, centre: &[f64], spread: f64, random: &mut RandomStream, pose: &mut [f64]) {
         for ((value, axis), at) in pose.iter_mut().zip(&self.axes).zip(centre) {
             *value = (at + spread / axis.scale() * random.normal()).clamp(axis.lower, axis.upper);

@@ -1,47 +1,47 @@
-//! Any method that owns a run, kept to poses a robot may take: allowed ones, one bounded step from the pose before.
+//! Decorator that keeps a whole-run method inside the allowed region and within one bounded step of the previous pose.
 //!
-//! A pose that is allowed and near enough passes as it is. Otherwise the trial goes as far towards it as one step may,
-//! to an allowed pose; where there is none within a step the run ends, and goals not reached are out of reach. The
-//! pose before a trial is the last trial's; where the world is put back the robot returns to its start, repeats the
-//! accepted poses, and the last of them is the pose before.
+//! A proposed pose that is allowed and close enough is passed on unchanged. Otherwise the trial goes as far towards it
+//! as one step allows, to an allowed pose. If there is no allowed pose within one step, the run ends, and unreached
+//! goals are out of reach. The previous pose is normally that of the last trial; if the world is reset, the robot
+//! returns to its start and repeats the accepted poses, and the last of them is the previous pose.
 //!
-//! Where consecutive *goals* are one step apart at most, the result is the sequence of measured poses with the least
-//! sum of squared distances from the goals among those that keep to it (dynamic programming over goals and trials).
+//! If consecutive *goals* may be at most one step apart, the result is the sequence of measured poses with the smallest
+//! sum of squared distances from the goals that respects this limit (dynamic programming over goals and trials).
 
 use super::space::Space;
 use super::{Outcome, Proposal, Trial, WholeRun};
 use crate::random::RandomStream;
 
-/// Poses tried around a blocked one, for each spread.
+/// Number of poses tried around a blocked one, per spread.
 const CLOUD: usize = 300;
-/// Their spreads, rad.
+/// Spreads of these poses, rad.
 const SPREADS: [f64; 4] = [0.05, 0.2, 0.6, 2.0];
-/// Shares of the way that are tried, of ten.
+/// Shares of the way that are tried, in tenths.
 const SHARES: u32 = 10;
 
-/// How far a robot may step.
+/// Limits on the robot's steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepLimits {
-    /// Largest step of each of the d joints from one trial to the next, rad or m; infinite where it is free.
+    /// Largest step of each of the d joints from one trial to the next, rad or m; infinite for no limit.
     pub per_trial: Vec<f64>,
-    /// Largest step of any joint from one goal's pose to the next goal's, rad or m.
+    /// Largest step of any joint from one goal's pose to the next goal's, rad or m; `None` for no limit.
     pub per_goal: Option<f64>,
-    /// Where the robot stands before the first trial; none where that may lie anywhere.
+    /// Pose of the robot before the first trial; `None` if the first trial is not limited.
     pub start: Option<Vec<f64>>,
     /// Whether the accepted poses are executed again before each trial.
     pub repeats: bool,
 }
 
-/// What the goals of a run are and when one is reached.
+/// Goals of a run and the tolerance within which they are reached.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Targets {
-    /// n rows of m features.
+    /// Goals, n rows of m features.
     pub goals: Vec<Vec<f64>>,
-    /// Largest distance of a goal that is reached, features' unit.
+    /// Largest distance at which a goal counts as reached, features' unit.
     pub tolerance: f64,
 }
 
-/// A method within its steps.
+/// A whole-run method restricted to its limits.
 pub struct Stepped {
     inner: Box<dyn WholeRun>,
     space: Space,
@@ -51,7 +51,7 @@ pub struct Stepped {
 }
 
 impl Stepped {
-    /// `inner`, which searches `space`, within `limits`.
+    /// Restricts `inner`, which searches `space`, to `limits`.
     #[must_use]
     pub fn new(inner: Box<dyn WholeRun>, space: Space, limits: StepLimits, targets: Targets, seed: u64) -> Self {
         Self { inner, space, limits, targets, seed }
@@ -69,7 +69,7 @@ impl Stepped {
         from.is_none_or(near) && self.space.allows(to)
     }
 
-    /// A pose the robot may take that is as near to `wanted` as is found.
+    /// The closest pose to `wanted` found that the robot may take; `None` if there is none.
     fn nearest(&self, wanted: &[f64]) -> Option<Vec<f64>> {
         let from = self.before();
         let reach = from.map_or_else(|| wanted.to_vec(), |from| self.capped(from, wanted));
@@ -107,7 +107,7 @@ impl Stepped {
     fn capped(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
         let ways = to.iter().zip(from).map(|(t, f)| (t - f).abs());
         let share = ways.zip(&self.limits.per_trial).filter(|(way, limit)| way > *limit).map(|(w, l)| l / w);
-        // A hair less than the whole step, so that rounding cannot make it longer.
+        // Slightly less than the whole step, so that rounding cannot make it longer.
         let share = share.fold(1.0, |a: f64, b| a.min(b * (1.0 - 1e-12)));
         from.iter().zip(to).map(|(f, t)| if share < 1.0 { f + (t - f) * share } else { *t }).collect()
     }
@@ -116,14 +116,15 @@ impl Stepped {
         a.iter().zip(b).zip(&self.space.axes).map(|((x, y), axis)| ((x - y) * axis.scale()).powi(2)).sum()
     }
 
-    /// The measured poses, one a goal, that lie within `limit` of one another and nearest to the goals.
+    /// Measured poses, one per goal, that are within `limit` of one another and closest to the goals.
     fn linked(&self, limit: f64) -> Option<Vec<Outcome>> {
         let log = self.inner.log();
         let observed: Vec<(usize, &Trial, &[f64])> =
             log.iter().enumerate().filter_map(|(i, t)| Some((i, t, t.observation.as_deref()?))).collect();
         let within = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| (x - y).abs() <= limit);
         let miss = |goal: &[f64], seen: &[f64]| goal.iter().zip(seen).map(|(g, s)| (g - s).powi(2)).sum::<f64>();
-        // cost[t]: least sum of the goals so far if the last one is served by trial t; chosen[goal][t]: by which before.
+        // cost[t]: smallest sum over the goals so far if trial t serves the last one; chosen[goal][t]: the trial before
+        // it.
         let mut cost: Vec<f64> = observed
             .iter()
             .map(|(_, t, _)| {

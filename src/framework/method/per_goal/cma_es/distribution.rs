@@ -1,43 +1,43 @@
-//! The search distribution of CMA-ES: `x = m + sigma B D z`, z standard normal, `C = B D^2 B'`.
+//! The search distribution of CMA-ES: `x = m + sigma B D z` with z standard normal and `C = B D^2 B'`.
 //!
-//! Coordinates are the joints scaled to 0..1 between their limits. Source: N. Hansen, arXiv:1604.00772, section 4 and
-//! figure 6; the weighting of negative updates is its equation 46.
+//! Coordinates are joints scaled to 0..1 between their limits.
+//! Source: N. Hansen, arXiv:1604.00772, section 4 and figure 6; the weighting of negative updates is its equation 46.
 
 use super::weights::Weights;
 use crate::random::RandomStream;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::{Deserialize, Serialize};
 
-/// Condition number of C beyond which the search cannot go on.
+/// Condition number of C above which the search stops.
 const WORST_CONDITION: f64 = 1e14;
 
 /// Mean, step size, covariance and evolution paths.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Distribution {
-    /// m, n values.
+    /// Mean m, n values.
     pub mean: Vec<f64>,
     /// Overall step size.
     pub sigma: f64,
-    /// C, n x n, symmetric.
+    /// Covariance C, n x n, symmetric.
     pub covariance: Vec<f64>,
     /// Evolution path of sigma, n values.
     pub path_sigma: Vec<f64>,
     /// Evolution path of C, n values.
     pub path_c: Vec<f64>,
-    /// Updates so far.
+    /// Number of updates so far.
     pub updates: u32,
 }
 
-/// B and D of the present covariance.
+/// Axes B and lengths D of the current covariance.
 #[derive(Debug, Clone)]
 pub(super) struct Axes {
     directions: DMatrix<f64>,
-    /// Standard deviations along them.
+    /// Standard deviations along the axes.
     lengths: DVector<f64>,
 }
 
 impl Distribution {
-    /// A sphere of radius `sigma` around `mean`.
+    /// An isotropic distribution with step size `sigma` around `mean`.
     pub fn new(mean: Vec<f64>, sigma: f64) -> Self {
         let n = mean.len();
         let identity = DMatrix::<f64>::identity(n, n);
@@ -51,7 +51,7 @@ impl Distribution {
         }
     }
 
-    /// Principal axes of C; none when rounding has made it useless.
+    /// Principal axes of C; `None` if rounding has made C unusable.
     pub fn axes(&self) -> Option<Axes> {
         let n = self.mean.len();
         let eigen = SymmetricEigen::new(DMatrix::from_column_slice(n, n, &self.covariance));
@@ -67,14 +67,15 @@ impl Distribution {
         self.sigma * variance.sqrt()
     }
 
-    /// Draws a candidate.
+    /// Draws one candidate.
     pub fn sample(&self, axes: &Axes, rng: &mut RandomStream) -> Vec<f64> {
         let z = DVector::from_fn(self.mean.len(), |_, _| rng.normal());
         let y = &axes.directions * z.component_mul(&axes.lengths);
         self.mean.iter().zip(&y).map(|(m, y)| m + self.sigma * y).collect()
     }
 
-    /// Learns from the candidates `ranked`, best first; the last `failed` of them are only known to be bad.
+    /// Updates the distribution from the candidates `ranked`, best first; the last `failed` of them are only known to
+    /// be bad.
     pub fn update(&mut self, weights: &Weights, axes: &Axes, ranked: &[&[f64]], failed: usize) {
         let n = self.mean.len();
         let steps: Vec<DVector<f64>> = ranked
@@ -96,7 +97,8 @@ impl Distribution {
         self.adapt(weights, axes, &mean_step, &steps, grown);
     }
 
-    /// Cumulative step-size adaptation (equations 43 and 44); whether the path is short enough for the rank-one update.
+    /// Cumulative step-size adaptation (equations 43 and 44); returns whether the path is short enough for the rank-one
+    /// update.
     fn step_size(&mut self, weights: &Weights, axes: &Axes, mean_step: &DVector<f64>) -> bool {
         let n = mean_step.len() as f64;
         let c = weights.c_sigma;
@@ -129,7 +131,7 @@ impl Distribution {
             let w = if w >= 0.0 { w } else { w * n as f64 / axes.whitened(y).norm_squared().max(1e-12) };
             covariance.ger(weights.c_mu * w, y, y, 1.0);
         }
-        // rounding leaves it a little asymmetric
+        // Rounding leaves it slightly asymmetric.
         let symmetric = (&covariance + covariance.transpose()) * 0.5;
         self.covariance = symmetric.as_slice().to_vec();
     }
@@ -142,8 +144,8 @@ impl Axes {
     }
 }
 
-/// A step put elsewhere by a bound or a repair, no longer than the distribution makes them: N. Hansen, "Injecting
-/// External Solutions Into CMA-ES", arXiv:1110.4181.
+/// Shortens a step that a bound or a repair has moved to the length that the distribution produces: N. Hansen,
+/// "Injecting External Solutions Into CMA-ES", arXiv:1110.4181.
 fn shortened(axes: &Axes, y: DVector<f64>) -> DVector<f64> {
     let n = y.len() as f64;
     let longest = 3.0 * (n.sqrt() + 2.0 * n / (n + 2.0));

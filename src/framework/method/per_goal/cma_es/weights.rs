@@ -1,30 +1,30 @@
-//! The strategy parameters of CMA-ES: functions of the dimension n and the number of candidates lambda alone.
+//! Strategy parameters of CMA-ES, which depend only on the dimension n and the number of candidates lambda.
 //!
 //! Equations are those of N. Hansen, "The CMA Evolution Strategy: A Tutorial", arXiv:1604.00772, table 1.
 
 /// Strategy parameters, named as in the tutorial.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Weights {
-    /// `w_i`, best first: mu positive ones that sum to 1, then negative ones.
+    /// Weights `w_i`, best first: mu positive ones that sum to 1, then negative ones.
     pub recombination: Vec<f64>,
-    /// Variance effective selection mass of the positive weights.
+    /// Variance-effective selection mass of the positive weights.
     pub mu_eff: f64,
-    /// Learning rate of the step size's path.
+    /// Learning rate of the step-size path.
     pub c_sigma: f64,
     /// Damping of the step size.
     pub d_sigma: f64,
-    /// Learning rate of the covariance's path.
+    /// Learning rate of the covariance path.
     pub c_c: f64,
     /// Learning rate of the rank-one update.
     pub c_1: f64,
     /// Learning rate of the rank-mu update.
     pub c_mu: f64,
-    /// E |N(0, I)|.
+    /// Expected norm E |N(0, I)|.
     pub chi: f64,
 }
 
 impl Weights {
-    /// For `n` dimensions and `lambda` >= 4 candidates.
+    /// Parameters for `n` dimensions and `lambda` >= 4 candidates.
     pub fn new(n: usize, lambda: usize) -> Self {
         let n = n as f64;
         let raw: Vec<f64> = (1..=lambda).map(|i| f64::midpoint(lambda as f64, 1.0).ln() - (i as f64).ln()).collect();
@@ -83,7 +83,7 @@ mod tests {
                 let w = Weights::new(n, lambda);
                 let (positive, negative) = w.recombination.split_at(w.mu());
                 assert!((positive.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-                // the decay of the covariance stays positive: it remains positive definite
+                // The decay of the covariance stays positive, so it remains positive definite.
                 assert!(negative.iter().all(|w| *w <= 0.0));
                 assert!(w.c_1 > 0.0 && w.c_mu > 0.0 && w.c_1 + w.c_mu <= 1.0, "n {n}, lambda {lambda}");
                 assert!(1.0 - w.c_1 - w.c_mu * w.recombination.iter().sum::<f64>() > -1e-12);

@@ -1,16 +1,16 @@
 //! The thirteen crossover operators and the mutation of the published runs (ECF, floating-point genotype).
 //!
-//! Symbols: parents p1, p2 and child, n genes; L, U the gene's limits; a = U(0, 1); coin = swap the parents with
-//! probability 1/2; d uniform in 0..n. An operator may write outside the limits; the caller decides what that means.
+//! Symbols: parents p1, p2 and child, n genes; L, U the gene's limits; a = U(0, 1); coin: swap the parents with
+//! probability 1/2; d uniform in 0..n. An operator may write values outside the limits; the caller handles them.
 
 use crate::random::RandomStream;
 
-/// Two genes nearer than this (rad or m; 1e-12 degrees) are equal to [`simulated_binary`].
+/// Genes closer than this (rad or m; 1e-12 degrees) count as equal in [`simulated_binary`].
 const SBX_EQUAL: f64 = 1e-12 * std::f64::consts::PI / 180.0;
-/// Two parents nearer than this (rad or m; 1e-8 degrees) have no direction for [`breeder`].
+/// Parents closer than this (rad or m; 1e-8 degrees) define no direction for [`breeder`].
 const BGA_EQUAL: f64 = 1e-8 * std::f64::consts::PI / 180.0;
 
-/// What a crossover reads.
+/// Input of a crossover.
 pub(super) struct Parents<'a> {
     pub p1: &'a [f64],
     pub p2: &'a [f64],
@@ -18,15 +18,15 @@ pub(super) struct Parents<'a> {
     pub fitness: [f64; 2],
     pub lower: &'a [f64],
     pub upper: &'a [f64],
-    /// First gene that the operators of the gene-0 quirk write: 1 with the quirk, else 0.
+    /// First gene written by the operators subject to the gene-0 quirk: 1 with the quirk, else 0.
     pub first: usize,
-    /// Which parents share their memory with the child, by the shared-parent quirk.
+    /// Parents that share their memory with the child, by the shared-parent quirk.
     pub shared: [bool; 2],
 }
 
 type Crossover = fn(&Parents<'_>, &mut [f64], &mut RandomStream);
 
-/// All crossovers, each as probable as the others.
+/// All crossovers; each is chosen with the same probability.
 pub(super) const CROSSOVERS: [(&str, Crossover); 13] = [
     ("one_point", one_point),
     ("arithmetic", arithmetic),
@@ -94,7 +94,7 @@ fn average(parents: &Parents<'_>, child: &mut [f64], _: &mut RandomStream) {
     }
 }
 
-/// Uniform between the parents, each gene by itself; `heuristic` has the same distribution.
+/// Each gene uniform between the parents, independently; `heuristic` has the same distribution.
 fn flat(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomStream) {
     for (gene, value) in child.iter_mut().enumerate().skip(parents.first) {
         let (low, high) = ordered(parents, gene);
@@ -124,7 +124,7 @@ fn simulated_binary(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomSt
         let spread = if u <= 1.0 / alpha { (alpha * u).sqrt() } else { (1.0 / (2.0 - alpha * u)).sqrt() };
         let half = spread / 2.0 * (high - low);
         let moved = if rng.coin() { mean + half } else { mean - half };
-        // beta = 0 (a parent outside its limits by exactly half the distance) has no spread
+        // With beta = 0 (a parent outside its limits by exactly half the distance) there is no spread.
         *value = if moved.is_finite() { moved } else { mean };
     }
 }
@@ -182,7 +182,7 @@ fn blx_alpha_beta(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomStre
     }
 }
 
-/// One random gene redrawn uniformly within its limits.
+/// Redraws one random gene uniformly within its limits.
 pub(super) fn mutate(child: &mut [f64], lower: &[f64], upper: &[f64], rng: &mut RandomStream) {
     let gene = rng.below(child.len());
     child[gene] = rng.between(lower[gene], upper[gene]);

@@ -1,4 +1,4 @@
-//! Properties of the operators, semantics of hall of fame and stagnation, resumption and a golden run.
+//! Operator properties, semantics of hall of fame and stagnation, resumption, and a golden run.
 
 use super::*;
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ fn sphere(joints: &[f64]) -> f64 {
     joints.iter().map(|q| (q - 0.4) * (q - 0.4)).sum()
 }
 
-/// Tells at most `budget` candidates; returns how many were told.
+/// Tells the outcome of at most `budget` candidates; returns how many were told.
 fn drive(sst: &mut Sst, objective: fn(&[f64]) -> f64, budget: usize) -> usize {
     let mut batch = Batch::new(3, 7);
     let mut told = 0;
@@ -36,7 +36,7 @@ fn genes() -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-0.26..1.75_f64, 3)
 }
 
-/// Runs operator `name` on parents p1 and p2 with the child slot at `old`.
+/// Applies operator `name` to parents p1 and p2, with the child's slot initially at `old`.
 fn cross(name: &str, p1: &[f64], p2: &[f64], old: f64, first: usize, seed: u64) -> Vec<f64> {
     let parents =
         Parents { p1, p2, fitness: [1.0, 2.0], lower: &[-0.26; 3], upper: &[1.75; 3], first, shared: [false; 2] };
@@ -152,7 +152,7 @@ proptest! {
 fn stops_after_stagnation_plus_one_generations_without_strict_improvement() {
     let spec = SstSpec { population: 10, stagnation: 3, ..SstSpec::default() };
     let mut flat = sst(&spec, 1);
-    // generation 0, then S + 1 = 4 generations of 10
+    // Generation 0, then S + 1 = 4 generations of 10.
     assert_eq!(drive(&mut flat, |_| 5.0, usize::MAX), 50);
     assert_eq!(flat.stop(), Some(StopReason::Stagnation));
 }

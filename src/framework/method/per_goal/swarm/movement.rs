@@ -1,23 +1,23 @@
-//! How a particle moves.
+//! Movement of a particle.
 //!
-//! Symbols, a gene each: position x, velocity v, own memory p, leader's memory g, inertia w, accelerations c1, c2,
-//! R1, R2 = U(0, 1), limit V:  `v <- clamp(w v + c1 R1 (p - x) + c2 R2 (g - x))`, `x <- x + v`.
+//! Symbols, per gene: position x, velocity v, own memory p, leader's memory g, inertia w, accelerations c1, c2, R1, R2
+//! = U(0, 1), limit V: `v <- clamp(w v + c1 R1 (p - x) + c2 R2 (g - x))`, `x <- x + v`.
 //!
-//! Sources: J. Kennedy, R. Eberhart, ICNN 1995, DOI 10.1109/ICNN.1995.488968; inertia and the limit: R. C. Eberhart,
-//! Y. Shi, CEC 2000, DOI 10.1109/CEC.2000.870279; w = 0.7298, c = 1.49618: M. Clerc, J. Kennedy, IEEE Trans. Evol.
-//! Comput. 6 (2002) 58-73, DOI 10.1109/4235.985692.
+//! Sources: J. Kennedy, R. Eberhart, ICNN 1995, DOI 10.1109/ICNN.1995.488968; inertia and the limit: R. C. Eberhart, Y.
+//! Shi, CEC 2000, DOI 10.1109/CEC.2000.870279; w = 0.7298, c = 1.49618: M. Clerc, J. Kennedy, IEEE Trans. Evol. Comput.
+//! 6 (2002) 58-73, DOI 10.1109/4235.985692.
 
 use super::spec::{SwarmSpec, VelocityClamp};
 use crate::method::per_goal::{BoundsRule, SearchSpace};
 use crate::random::RandomStream;
 
-/// What a particle reads when it moves; all of n genes.
+/// Points that attract a particle; each has n genes.
 pub(super) struct Pull<'a> {
     pub memory: &'a [f64],
     pub leader: &'a [f64],
 }
 
-/// Moves one particle; returns the mean c1 R1 and c2 R2 over its genes, which fitness inheritance weighs by.
+/// Moves one particle; returns the means of c1 R1 and c2 R2 over its genes, the weights of fitness inheritance.
 pub(super) fn fly(
     spec: &SwarmSpec,
     space: &SearchSpace,
@@ -48,7 +48,7 @@ pub(super) fn fly(
     total.map(|sum| sum / x.len() as f64)
 }
 
-/// `velocity` within its limits, for a gene of that range.
+/// Clamps `velocity` to its limit, for a gene of that range.
 pub(super) fn limited(spec: &SwarmSpec, velocity: f64, range: f64) -> f64 {
     let most = spec.max_velocity.unwrap_or(range);
     match spec.velocity_clamp {

@@ -1,4 +1,4 @@
-//! What MODEL-IET believes of the feature map: a prior mean (a simulator, or the average) plus a Gaussian process.
+//! MODEL-IET's belief about the feature map: a prior mean (a simulator, or the average) plus a Gaussian process.
 
 use super::kernel::Poses;
 use super::process::{Family, Process};
@@ -8,15 +8,15 @@ use crate::method::whole_run::space::Space;
 use crate::method::whole_run::{FeatureMap, Trial};
 use nalgebra::DMatrix;
 
-/// Step of the central difference through a prior, rad.
+/// Step of central differences through a prior, rad.
 const DIFFERENCE: f64 = 1e-4;
 
-/// Fitted belief with its scratch space.
+/// A fitted belief with its scratch space.
 pub(super) struct Belief<'a> {
     process: Process,
     prior: Option<&'a mut dyn FeatureMap>,
     average: Vec<f64>,
-    /// Posterior mean at the last pose asked for.
+    /// Posterior mean at the last pose predicted.
     pub mean: Vec<f64>,
     jacobian: Vec<f64>,
     slope: Vec<f64>,
@@ -25,17 +25,17 @@ pub(super) struct Belief<'a> {
     behind: Vec<f64>,
 }
 
-/// What a search through the belief minimises.
+/// Objective of a search through the belief.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Aim<'a> {
-    /// X_j.
+    /// Goal X_j.
     pub goal: &'a [f64],
-    /// Weight of `m var(q)`: above 0 keeps to what is known, below 0 looks optimistically.
+    /// Weight of `m var(q)`: positive values avoid the unknown, negative ones are optimistic.
     pub caution: f64,
 }
 
 impl<'a> Belief<'a> {
-    /// The belief after the trials of `logs`; none while nothing was observed.
+    /// Fits the belief to the trials of `logs`; `None` if nothing was observed.
     pub fn fit(
         space: &Space,
         logs: [&[Trial]; 2],
@@ -90,25 +90,25 @@ impl<'a> Belief<'a> {
         })
     }
 
-    /// Posterior mean into `self.mean`; returns the variance of one feature.
+    /// Writes the posterior mean to `self.mean`; returns the variance of one feature.
     pub fn predict(&mut self, pose: &[f64]) -> f64 {
         let variance = self.process.predict(pose, &mut self.mean);
         self.add_prior(pose);
         variance
     }
 
-    /// Posterior mean into `self.mean`, without the variance.
+    /// Writes the posterior mean to `self.mean`, without computing the variance.
     pub fn predict_mean(&mut self, pose: &[f64]) {
         self.process.predict_mean(pose, &mut self.mean);
         self.add_prior(pose);
     }
 
-    /// The variance of one feature where the mean was predicted last.
+    /// Variance of one feature at the pose of the last prediction.
     pub fn variance_there(&mut self) -> f64 {
         self.process.variance_there()
     }
 
-    /// What no variance exceeds.
+    /// Upper bound of all variances.
     pub fn largest_variance(&self) -> f64 {
         self.process.amplitude_squared()
     }
@@ -122,14 +122,14 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// `|mu - X|^2 + caution m var`.
+    /// Score `|mu - X|^2 + caution m var`.
     pub fn score(&mut self, pose: &[f64], aim: Aim) -> f64 {
         let variance = self.predict(pose);
         squared_distance(&self.mean, aim.goal) + aim.caution * aim.goal.len() as f64 * variance
     }
 
-    /// As [`Belief::score`], with gradient and Gauss-Newton Hessian, where it is less than `bound`: true then. Where it
-    /// is not `local` stays as it is, and nothing is computed that was not needed to know.
+    /// Like [`Belief::score`], with gradient and Gauss-Newton Hessian; returns whether the score is below `bound`. If
+    /// not, `local` stays unchanged and only what is needed to decide is computed.
     pub fn score_with_slopes(&mut self, pose: &[f64], aim: Aim, bound: f64, local: &mut Local) -> bool {
         let (d, m) = (pose.len(), aim.goal.len());
         let weight = aim.caution * m as f64;

@@ -1,39 +1,39 @@
-//! One kernel against all poses of a log at once: a column of n numbers a joint, so that the compiler may use vector
-//! lanes.
+//! The kernel between one pose and all poses of a log, stored as one column of n numbers per joint, so that the
+//! compiler can vectorise.
 //!
-//! A TRIG factor is `c + a cos q + b sin q` with `c = 1 / (1 + h)`, `a = h cos q_i / (1 + h)`, `b = h sin q_i / (1 + h)`:
-//! all that depends on the log is computed once.
+//! A TRIG factor is `c + a cos q + b sin q` with `c = 1 / (1 + h)`, `a = h cos q_i / (1 + h)`,
+//! `b = h sin q_i / (1 + h)`: everything that depends on the log is computed once.
 
 use super::kernel::{Kernel, Poses, se};
 
-/// What one joint of the n poses puts into the kernel.
+/// Contribution of one joint of the n poses to the kernel.
 #[derive(Debug, Clone)]
 enum Column {
-    /// c, the n values a and the n values b.
+    /// Constant c, the n values a and the n values b.
     Trig(f64, Vec<f64>, Vec<f64>),
-    /// The length h and the n scaled positions.
+    /// Length h and the n scaled positions.
     Se(f64, Vec<f64>),
 }
 
-/// The n poses of a log under one kernel, and what the kernel is at the pose asked for last.
+/// The n poses of a log under one kernel, and the kernel at the pose queried last.
 #[derive(Debug, Clone)]
 pub struct Columns {
     scale: Vec<f64>,
     joints: Vec<Column>,
-    /// The d scaled positions, with cosines and sines, of the pose asked for last.
+    /// Scaled positions, cosines and sines of the d joints at the pose queried last.
     at: Vec<[f64; 3]>,
-    /// The kernel with each of the n poses.
+    /// Kernel between that pose and each of the n poses.
     pub k: Vec<f64>,
-    /// `dk[j * n + i] = d k_i / d q_j`, where [`Columns::slopes_there`] was called.
+    /// `dk[j * n + i] = d k_i / d q_j`; valid after [`Columns::slopes_there`].
     pub dk: Vec<f64>,
-    /// Factor j of each pose at `[j * n..]`.
+    /// Factor j of each pose, at `[j * n..]`.
     factors: Vec<f64>,
-    /// Products of the factors before or after the joint at hand.
+    /// Products of the factors before or after the current joint.
     product: Vec<f64>,
 }
 
 impl Columns {
-    /// `poses` under `kernel`.
+    /// Prepares `poses` under `kernel`.
     #[must_use]
     pub fn new(poses: &Poses, kernel: Kernel) -> Self {
         let (n, d) = (poses.len(), poses.joints());
@@ -62,7 +62,7 @@ impl Columns {
         }
     }
 
-    /// The kernel of `pose` (d joints, rad or m) with each pose of the log, into [`Columns::k`].
+    /// Writes the kernel between `pose` (d joints, rad or m) and each pose of the log to [`Columns::k`].
     pub fn ask(&mut self, pose: &[f64]) {
         self.k.fill(1.0);
         for (j, column) in self.joints.iter().enumerate() {
@@ -84,13 +84,13 @@ impl Columns {
         }
     }
 
-    /// The slopes at the pose asked for last, into [`Columns::dk`].
+    /// Writes the slopes at the pose queried last to [`Columns::dk`].
     pub fn slopes_there(&mut self) {
         let n = self.k.len();
         if n == 0 {
             return;
         }
-        // prefix products forward, suffix products backward: no division by a factor that may be 0
+        // Prefix products forwards, suffix products backwards: no division by a factor that may be 0.
         self.product.fill(1.0);
         let rows = self.factors.chunks_exact_mut(n).zip(self.dk.chunks_exact_mut(n));
         for (((column, &[x, cos, sin]), &scale), (factors, dk)) in

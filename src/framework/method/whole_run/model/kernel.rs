@@ -1,36 +1,36 @@
-//! Product kernels over joints, unit variance: TRIG for what angles do, SE (squared exponential) for the rest.
+//! Product kernels over joints with unit variance: TRIG for angles, SE (squared exponential) for everything else.
 //!
-//! TRIG: `k = prod_i (1 + h cos dq_i) / (1 + h)`; its functions are those multilinear in 1, cos q_i and sin q_i, which
-//! is what the position of a point on a chain of revolute joints is. SE: `k = prod_i exp(-dq_i^2 / 2 h^2)`. Prismatic
-//! joints always take the SE factor, a stroke counted as pi radians, under TRIG with a length of 2.5 rad.
+//! TRIG: `k = prod_i (1 + h cos dq_i) / (1 + h)`. Its functions are multilinear in 1, cos q_i and sin q_i, exactly like
+//! the position of a point on a chain of revolute joints. SE: `k = prod_i exp(-dq_i^2 / 2 h^2)`. Prismatic joints
+//! always use the SE factor, with a stroke counted as pi radians; under TRIG its length is 2.5 rad.
 
 use crate::method::whole_run::space::{Axis, Space};
 use serde::{Deserialize, Serialize};
 
-/// SE length of a prismatic joint under TRIG, rad of pi a stroke: nearly linear over the stroke.
+/// SE length of a prismatic joint under TRIG, in rad with pi per stroke: nearly linear over the stroke.
 const STROKE_LENGTH: f64 = 2.5;
 
-/// A kernel with its one shape parameter.
+/// A kernel with its shape parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Kernel {
     /// Trigonometric; h is the weight of the cosine.
     Trig(f64),
-    /// Squared exponential; the length in rad.
+    /// Squared exponential with a length in rad.
     Se(f64),
 }
 
-/// The poses of a log, prepared for one kernel evaluation after the other.
+/// The poses of a log, prepared for repeated kernel evaluations.
 #[derive(Debug, Clone, Default)]
 pub struct Poses {
     joints: usize,
     scale: Vec<f64>,
     revolute: Vec<bool>,
-    /// Per pose and joint: scaled position, cosine, sine.
+    /// Scaled position, cosine and sine per pose and joint.
     rows: Vec<[f64; 3]>,
 }
 
 impl Poses {
-    /// No poses yet, over `space`.
+    /// An empty log over `space`.
     #[must_use]
     pub fn new(space: &Space) -> Self {
         Self {
@@ -61,7 +61,7 @@ impl Poses {
         self.rows.len() / self.joints.max(1)
     }
 
-    /// The d numbers a joint's positions are multiplied with before they are compared.
+    /// The d factors by which joint positions are multiplied before they are compared.
     #[must_use]
     pub fn scale(&self) -> &[f64] {
         &self.scale
@@ -72,7 +72,7 @@ impl Poses {
         self.rows.iter().skip(j).step_by(self.joints.max(1)).copied()
     }
 
-    /// The factor that joint `j` puts into `kernel`.
+    /// Factor of joint `j` in `kernel`.
     #[must_use]
     pub fn factor(&self, kernel: Kernel, j: usize) -> Kernel {
         match kernel {
@@ -93,7 +93,7 @@ impl Poses {
     }
 }
 
-/// The squared exponential of a difference.
+/// Squared exponential of a difference.
 pub(super) fn se(difference: f64, length: f64) -> f64 {
     (-difference * difference / (2.0 * length * length)).exp()
 }

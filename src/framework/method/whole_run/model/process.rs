@@ -1,29 +1,30 @@
-//! Gaussian process of m features with one kernel, its shape and amplitude chosen by maximum evidence over a grid.
+//! Gaussian process of m features with one kernel; shape and amplitude are chosen by maximum evidence over a grid.
 //!
-//! Symbols: n measured poses, residuals Y (n x m; feature minus prior mean), unit kernel matrix C, amplitude a,
-//! noise s: `K = a^2 C + (s^2 + 1e-7 a^2) I`. Log evidence, the m outputs sharing K:
+//! Symbols: n measured poses, residuals Y (n x m; feature minus prior mean), unit kernel matrix C, amplitude a, noise
+//! s: `K = a^2 C + (s^2 + 1e-7 a^2) I`. Log evidence, with K shared by the m outputs:
 //! `-1/2 sum_o y_o' K^-1 y_o - m/2 log |K|`, plus weak log-normal priors on the shape h and on c = a / s0.
+//!
 //! Source: C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, ch. 2 and 5.
 
 use super::columns::Columns;
 use super::kernel::{Kernel, Poses};
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
-/// Ridge relative to the amplitude: what makes the Cholesky factorisation safe without noise.
+/// Ridge relative to the amplitude; makes the Cholesky factorisation safe without noise.
 const RIDGE: f64 = 1e-7;
-/// Amplitudes tried, in units of the scale s0.
+/// Grid of amplitudes, in units of the scale s0.
 const AMPLITUDES: [f64; 6] = [0.15, 0.3, 0.6, 1.0, 1.8, 3.0];
 const TRIG_SHAPES: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 const SE_LENGTHS_DEG: [f64; 5] = [35.0, 50.0, 70.0, 100.0, 140.0];
 /// Width (natural logarithm) of the priors on shape and amplitude.
 const PRIOR_WIDTH: f64 = 0.7;
 
-/// The kernels an evidence search goes through.
+/// Kernels considered by the evidence search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Family {
-    /// For chains with revolute joints.
+    /// Kernels for chains with revolute joints.
     Trig,
-    /// For anything smooth.
+    /// Kernels for any smooth map.
     Se,
 }
 
@@ -50,13 +51,13 @@ fn log_prior(value: f64, centre: f64) -> f64 {
 pub struct Process {
     columns: Columns,
     variance: f64,
-    /// K^-1 Y / a^2-free form: `C'^-1 Y`, n x m column-major.
+    /// Weights of the mean, `C'^-1 Y`, n x m column-major.
     alpha: Vec<f64>,
     /// Inverse of the lower Cholesky factor of C', row-major, n x n.
     inverse: Vec<f64>,
-    /// `inverse k` at the pose asked for last.
+    /// `inverse k` at the pose queried last.
     whitened: Vec<f64>,
-    /// `C'^-1 k` there.
+    /// `C'^-1 k` at that pose.
     weights: Vec<f64>,
 }
 
@@ -72,8 +73,8 @@ struct Choice {
 type Factorized = (Cholesky<f64, Dyn>, DMatrix<f64>, f64, f64);
 
 impl Process {
-    /// Fits `residuals` (n x m) at `poses`; `scale` is s0 and `noise` the standard deviation s, features' unit.
-    /// None when no kernel matrix could be factorised (poses that are not finite).
+    /// Fits `residuals` (n x m) at `poses`; `scale` is s0 and `noise` the standard deviation s, features' unit. `None`
+    /// if no kernel matrix could be factorised (poses that are not finite).
     #[must_use]
     pub fn fit(poses: &Poses, residuals: &DMatrix<f64>, family: Family, scale: f64, noise: f64) -> Option<Self> {
         let n = poses.len();
@@ -119,13 +120,13 @@ impl Process {
         self.variance
     }
 
-    /// Posterior mean of the residual at `pose` into `mean` (m values); returns the variance of one output.
+    /// Writes the posterior mean of the residual at `pose` to `mean` (m values); returns the variance of one output.
     pub fn predict(&mut self, pose: &[f64], mean: &mut [f64]) -> f64 {
         self.predict_mean(pose, mean);
         self.variance_there()
     }
 
-    /// As [`Process::predict`], without the variance: n m operations instead of n^2.
+    /// Like [`Process::predict`], without the variance: n m operations instead of n^2.
     pub fn predict_mean(&mut self, pose: &[f64], mean: &mut [f64]) {
         self.columns.ask(pose);
         let k = &self.columns.k;
@@ -134,7 +135,7 @@ impl Process {
         }
     }
 
-    /// The variance of one output at the pose asked for last.
+    /// Variance of one output at the pose queried last.
     pub fn variance_there(&mut self) -> f64 {
         let k = &self.columns.k;
         let n = k.len();
@@ -147,7 +148,7 @@ impl Process {
         self.variance * (1.0 - explained).max(0.0)
     }
 
-    /// At the pose whose variance was asked for last: `jacobian[o * d + j]` of the mean and `slope[j]`, the gradient of
+    /// At the pose whose variance was queried last: `jacobian[o * d + j]` of the mean, and `slope[j]`, the gradient of
     /// the variance.
     pub fn slopes_there(&mut self, jacobian: &mut [f64], slope: &mut [f64]) {
         self.columns.slopes_there();
@@ -168,7 +169,7 @@ impl Process {
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    // four partial sums: the order of the additions is fixed, and the compiler may use vector lanes
+    // Four partial sums: the order of the additions is fixed, and the compiler can vectorise.
     let mut sums = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
     let tail: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
@@ -180,7 +181,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
 }
 
-/// The n x n matrix of `entry(row, column)` below and on the diagonal: all that a Cholesky factorisation reads.
+/// The n x n matrix of `entry(row, column)` on and below the diagonal, which is all that a Cholesky factorisation
+/// reads.
 fn lower_triangle(n: usize, entry: impl Fn(usize, usize) -> f64) -> DMatrix<f64> {
     DMatrix::from_fn(n, n, |a, b| if b <= a { entry(a, b) } else { 0.0 })
 }

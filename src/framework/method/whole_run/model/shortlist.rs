@@ -1,8 +1,8 @@
-//! The search through a belief: poses spread over the box and around measured ones; the best few are refined.
+//! Search through a belief: starts are spread over the box and around measured poses, and the best few are refined.
 //!
-//! Means are cheap (n m), variances are not (n^2), and a pose's score is at least its squared distance from the goal
-//! plus the least its variance can add: no variance is computed of a pose that cannot be among the best few. What is
-//! found is what a search without that economy finds, to the bit.
+//! Means are cheap (n m), variances are not (n^2). A pose's score is at least its squared distance from the goal plus
+//! the smallest possible contribution of its variance, so no variance is computed for a pose that cannot be among the
+//! best few. The result is the same, to the bit, as without this shortcut.
 
 use super::belief::{Aim, Belief};
 use crate::method::whole_run::FeatureMap;
@@ -11,26 +11,26 @@ use crate::method::whole_run::refine::{Local, refine};
 use crate::method::whole_run::space::Space;
 use crate::random::RandomStream;
 
-/// Uniform starts, shared by all goals.
+/// Number of uniform starts, shared by all goals.
 const UNIFORM_STARTS: usize = 600;
-/// Starts around the measured poses nearest to a goal.
+/// Number of starts around the measured poses closest to a goal.
 const LOCAL_STARTS: usize = 300;
-/// How many starts are refined.
+/// Number of starts that are refined.
 const REFINED: usize = 5;
-/// Evaluations of a refinement.
+/// Number of evaluations per refinement.
 const REFINE_STEPS: usize = 40;
 /// Spread of the local starts, rad.
 const LOCAL_SPREAD: f64 = 0.26;
 
-/// Uniform poses with what the belief expects there.
+/// Uniform poses with the belief's predictions.
 pub(super) struct Starts {
     joints: usize,
     features: usize,
-    /// One row of d a start.
+    /// Poses, one row of d values per start.
     poses: Vec<f64>,
-    /// One row of m a start.
+    /// Predicted means, one row of m values per start.
     means: Vec<f64>,
-    /// One a start, once it was needed.
+    /// Variance per start, once it has been needed.
     variances: Vec<Option<f64>>,
 }
 
@@ -88,7 +88,7 @@ impl Starts {
     }
 }
 
-/// The [`REFINED`] allowed poses with the smallest scores, best first; the earlier offered first among equals.
+/// The [`REFINED`] allowed poses with the smallest scores, best first; ties keep the order in which they were offered.
 struct Shortlist {
     rows: Vec<(f64, Vec<f64>)>,
 }
@@ -98,7 +98,7 @@ impl Shortlist {
         Self { rows: Vec::with_capacity(REFINED + 1) }
     }
 
-    /// Whether a pose of that score would be among the best.
+    /// Whether a pose with that score would be among the best.
     fn takes(&self, score: f64) -> bool {
         self.rows.len() < REFINED || self.rows.last().is_none_or(|last| score < last.0)
     }
@@ -112,7 +112,7 @@ impl Shortlist {
     }
 }
 
-/// The allowed pose that a prior alone thinks nearest to `goal`; a pose near home where there is no prior.
+/// The allowed pose that the prior alone predicts closest to `goal`; without a prior, a pose near home.
 pub(super) fn nearest_by_prior(
     space: &Space,
     goal: &[f64],
@@ -122,7 +122,7 @@ pub(super) fn nearest_by_prior(
 ) -> Vec<f64> {
     let mut best = (f64::INFINITY, space.home());
     if has_failed {
-        // The pose before was not seen: another one may be.
+        // The previous pose was not observed; another one may be.
         space.near(&space.home(), LOCAL_SPREAD, random, &mut best.1);
     }
     let Some(prior) = prior else { return best.1 };

@@ -1,17 +1,17 @@
-//! Where on a surface poses lead, learnt from the cells that trials were seen to gain.
+//! Prediction of the cell that a pose leads to, learned from the cells that trials gained.
 //!
-//! One Gaussian process a coordinate, from joints to (row, column): mean the middle of the grid, kernel
-//! `v exp(-d^2 / 2 l^2)` with d in degrees, v the grid's own scatter. A pose's chance of something new is the density of
-//! its predicted place at the centres of the cells that are not yet painted.
+//! One Gaussian process per coordinate, from joints to (row, column): its mean is the middle of the grid, its kernel
+//! `v exp(-d^2 / 2 l^2)` with d in degrees and v the grid's own scatter. A pose's chance of gaining something new is
+//! the density of its predicted place at the centres of unpainted cells.
 
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
 const LENGTH_DEG: f64 = 45.0;
-/// How far the places of the poses that paint one cell scatter about its centre, cells.
+/// Scatter about a cell's centre of the places of poses that paint it, in cells.
 const SCATTER: f64 = 0.35;
 
-/// Rows and columns of a surface whose cells are seen.
+/// Number of rows and columns of a surface whose cells are observed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Grid {
     /// Number of columns.
@@ -30,7 +30,7 @@ impl Grid {
         [(self.rows as f64 - 1.0) / 2.0, (self.columns as f64 - 1.0) / 2.0]
     }
 
-    /// Mean squared distance of a cell's row and column from the middle, that of a 2 x 2 grid at least.
+    /// Mean squared distance of a cell's row and column from the middle; at least that of a 2 x 2 grid.
     fn variance(self) -> f64 {
         let of = |count: usize| (count * count) as f64 / 12.0;
         f64::midpoint(of(self.rows), of(self.columns)).max(1.0 / 3.0)
@@ -59,7 +59,7 @@ impl CellPredictor {
         Self { grid, painted: vec![0; grid.cells().div_ceil(64)], hits: Vec::new() }
     }
 
-    /// Takes the cells that a trial gained, and whether they stay.
+    /// Records the cells that a trial gained, and whether the trial was accepted.
     pub fn tell(&mut self, joints: &[f64], fresh: &[u64], accepted: bool) {
         let places: Vec<[f64; 2]> =
             (0..self.grid.cells()).filter(|&c| has(fresh, c)).map(|c| self.grid.place(c)).collect();
@@ -72,8 +72,8 @@ impl CellPredictor {
         }
     }
 
-    /// For each pose the density of its place at unpainted cells, per cell; none before the first hit. `squared` is
-    /// the squared distance of two poses, degrees.
+    /// For each pose, the density of its predicted place at unpainted cells, per cell; `None` before the first hit.
+    /// `squared` is the squared distance between two poses, degrees.
     pub fn chances(&self, poses: &[Vec<f64>], squared: impl Fn(&[f64], &[f64]) -> f64) -> Option<Vec<f64>> {
         let count = self.hits.len();
         let variance = self.grid.variance();

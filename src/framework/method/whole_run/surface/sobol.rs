@@ -1,12 +1,12 @@
-//! Sobol's low-discrepancy sequence with a random shift: even cover of the joint box by few poses.
+//! Sobol's low-discrepancy sequence with a random shift: covers the joint box evenly with few poses.
 //!
 //! Direction numbers: S. Joe, F. Kuo, SIAM J. Sci. Comput. 30 (2008), DOI 10.1137/070709359, first ten dimensions;
-//! further dimensions are filled by independent uniform numbers.
+//! further dimensions use independent uniform numbers.
 
 use crate::method::whole_run::space::Space;
 use crate::random::RandomStream;
 
-/// (degree, coefficients, initial direction numbers) of dimensions 2 to 10.
+/// Degree, coefficients and initial direction numbers of dimensions 2 to 10.
 const PRIMITIVE: [(u32, u32, &[u32]); 9] = [
     (1, 0, &[1]),
     (2, 1, &[1, 3]),
@@ -44,10 +44,10 @@ fn directions(dimension: usize) -> Option<[u32; 32]> {
     Some(v)
 }
 
-/// Poses drawn for one that is wanted, where most of the space is forbidden.
+/// Number of poses drawn per pose wanted, if most of the space is forbidden.
 const PATIENCE: usize = 16;
 
-/// `count` allowed poses, shifted by one random offset per joint; fewer where hardly any is allowed.
+/// `count` allowed poses, shifted by one random offset per joint; fewer if hardly any pose is allowed.
 pub fn poses(space: &Space, count: usize, random: &mut RandomStream) -> Vec<Vec<f64>> {
     let tables: Vec<Option<[u32; 32]>> = (0..space.len()).map(directions).collect();
     let shifts: Vec<f64> = space.axes.iter().map(|_| random.unit()).collect();
