@@ -4,8 +4,8 @@
 
 use cgda::framework::execution::Iet;
 use cgda::framework::method::whole_run::{ModelIet, ModelSpec, Space, Trial, WholeRun};
-use cgda::framework::preset::shipped;
 use cgda::framework::random::RandomStream;
+use cgda::reproduce::shipped;
 use divan::{Bencher, black_box};
 
 fn main() {
@@ -14,7 +14,7 @@ fn main() {
 
 /// A run after `trials` measured poses, spread over the box and none of them near a goal.
 fn after(trials: usize, noise: f64) -> ModelIet {
-    let problem = shipped("circle-seven-joints").expect("the preset is shipped").problem;
+    let problem = shipped::preset("circle-seven-joints").expect("the preset is shipped").problem;
     let iet = Iet::new(&problem, 1).expect("the preset can be run");
     let mut world = iet.world().expect("the preset has a world");
     let space = Space::of(iet.chain());

@@ -5,10 +5,10 @@
 //! evaluations per second on one core.
 
 use cgda::framework::execution::{PartialDiscrepancy, Problem, run};
-use cgda::framework::preset::shipped;
 use cgda::framework::recognition::discrepancy;
 use cgda::framework::robot::{Chain, RobotModel};
 use cgda::framework::world::{self, World};
+use cgda::reproduce::shipped;
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 
@@ -16,7 +16,7 @@ use divan::{Bencher, black_box};
 const POSES: usize = 1024;
 
 fn main() {
-    let problem = shipped("paper-wax").expect("paper-wax is shipped").problem;
+    let problem = shipped::preset("paper-wax").expect("paper-wax is shipped").problem;
     let mut both = Both::new(&problem);
     for pose in &both.poses.clone() {
         assert_eq!(both.incremental(pose).to_bits(), both.whole(pose).to_bits(), "both ways give the same bits");
@@ -68,7 +68,7 @@ impl Both {
 }
 
 fn bench(bencher: Bencher<'_, '_>, evaluate: fn(&mut Both, &[f64]) -> f64) {
-    let mut both = Both::new(&shipped("paper-wax").expect("paper-wax is shipped").problem);
+    let mut both = Both::new(&shipped::preset("paper-wax").expect("paper-wax is shipped").problem);
     let poses = both.poses.clone();
     bencher.counter(ItemsCount::new(POSES)).bench_local(|| {
         for pose in &poses {
@@ -90,7 +90,7 @@ fn full_recomputation(bencher: Bencher<'_, '_>) {
 /// Including the optimiser: about 9700 evaluations per run.
 #[divan::bench(sample_count = 20)]
 fn whole_sst_run(bencher: Bencher<'_, '_>) {
-    let problem = shipped("paper-wax").expect("paper-wax is shipped").problem;
+    let problem = shipped::preset("paper-wax").expect("paper-wax is shipped").problem;
     let evaluations = run(&problem, 1).expect("paper-wax runs").evaluations;
     bencher.counter(ItemsCount::new(evaluations)).bench_local(|| run(black_box(&problem), 1));
 }

@@ -5,7 +5,8 @@
 //! | folder | content | may import |
 //! |---|---|---|
 //! | [`framework`] | CGDA itself: pure science, no I/O; the package `cgda-core` | nothing of ours |
-//! | [`app`] | the one service layer: use cases and ports | `framework` |
+//! | [`reproduce`] | the paper: shipped presets, its tables and figures | `framework` |
+//! | [`app`] | the one service layer: use cases and ports | `framework`, `reproduce` |
 //! | [`store`], [`evaluate`], [`jobs`] | implementations of the ports | `app`, `framework` |
 //! | [`http`], [`grpc`] | thin edges: extract, one `app` call, convert | `app`, value types of `framework` |
 //! | [`config`], [`telemetry`], [`lifecycle`], [`cli`] | wiring | everything |
@@ -26,6 +27,7 @@ pub mod grpc;
 pub mod http;
 pub mod jobs;
 pub mod lifecycle;
+pub mod reproduce;
 pub mod store;
 pub mod telemetry;
 

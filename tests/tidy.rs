@@ -14,7 +14,8 @@ const MAX_LINES: usize = 500;
 /// Folder or file under `src/` -> the modules of this crate it may name. What is not listed here may name everything.
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("app/model", &["framework"]),
-    ("app", &["app", "framework"]),
+    ("reproduce", &["reproduce", "framework"]),
+    ("app", &["app", "framework", "reproduce"]),
     ("store", &["store", "app", "framework"]),
     ("evaluate", &["evaluate", "app", "framework"]),
     ("jobs", &["jobs", "app", "framework", "evaluate"]),

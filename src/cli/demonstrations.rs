@@ -1,8 +1,8 @@
 //! Demonstration files named on the command line: reads them and prints findings to stderr.
 
+use super::values::{ClockPolicy, Format};
 use crate::framework::demonstration::{
-    ClockPolicy, Demonstration, Finding, Format, ReadOptions, SourceFile, content_hash, duplicate_content,
-    known_features, read, read_files,
+    Demonstration, Finding, ReadOptions, SourceFile, content_hash, duplicate_content, known_features, read, read_files,
 };
 use anyhow::{Context as _, bail};
 use std::fs::File;
@@ -10,7 +10,7 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// Options for reading demonstration files.
-#[derive(Debug, Clone, Default, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct ReadArguments {
     /// Format of the files; detected from their content if absent.
     #[arg(long, value_enum)]
@@ -79,10 +79,10 @@ fn read_path(path: &Path, arguments: &ReadArguments) -> anyhow::Result<Read> {
     let options = ReadOptions {
         name: Some(name(path)),
         stream: Some(stream(path)),
-        format: arguments.format,
+        format: arguments.format.map(Into::into),
         time_column: arguments.time_column.clone(),
         units: arguments.units.iter().cloned().collect(),
-        clock_policy: arguments.clock_policy,
+        clock_policy: arguments.clock_policy.into(),
         ..ReadOptions::default()
     };
     if !path.is_dir() {

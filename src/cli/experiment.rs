@@ -1,8 +1,8 @@
 //! `cgda experiment`: runs a matrix of settings from a TOML file on all cores; prints a table and writes a figure.
 
-use crate::framework::experiment::figure::{Method, trade_off};
 use crate::framework::experiment::{CellResult, Experiment, ExperimentSpec, RunError, RunId, RunRow, export, run};
-use crate::framework::preset;
+use crate::reproduce::figure::{Method, trade_off};
+use crate::reproduce::shipped;
 use anyhow::{Context as _, ensure};
 use indicatif::{ParallelProgressIterator as _, ProgressBar, ProgressStyle};
 use rayon::iter::Either;
@@ -44,7 +44,7 @@ pub fn run_command(arguments: &ExperimentArguments) -> anyhow::Result<()> {
         seed: arguments.seed.unwrap_or(spec.seed),
         ..spec
     };
-    let mut experiment = Experiment::new(spec.plan(|name| preset::shipped(name).ok())?);
+    let mut experiment = Experiment::new(spec.plan(|name| shipped::preset(name).ok())?);
     let lost = finish(&mut experiment, arguments.threads)?;
     report(&lost, &experiment)?;
     if let Some(path) = &arguments.figure {
@@ -138,7 +138,7 @@ mod tests {
     fn done(repetitions: u32, threads: u32, keep: impl Fn(&str) -> bool) -> Experiment {
         let mut spec = ExperimentSpec { repetitions, ..spec() };
         spec.cells.retain(|cell| keep(&cell.setting));
-        let mut experiment = Experiment::new(spec.plan(|name| preset::shipped(name).ok()).unwrap());
+        let mut experiment = Experiment::new(spec.plan(|name| shipped::preset(name).ok()).unwrap());
         assert!(finish(&mut experiment, Some(threads)).unwrap().is_empty());
         experiment
     }
@@ -148,7 +148,7 @@ mod tests {
         let experiment = done(2, 2, |setting| setting.contains(" mm") || setting == "FI-PSO");
         let svg = figure(&experiment).unwrap();
         assert!(svg.contains("discrepancy (mm)") && svg.contains("FI-PSO"), "{svg}");
-        let plan = spec().plan(|name| preset::shipped(name).ok()).unwrap();
+        let plan = spec().plan(|name| shipped::preset(name).ok()).unwrap();
         let found: std::collections::BTreeSet<_> =
             plan.cells.iter().map(|cell| cell.problem.execution.method.name()).collect();
         assert_eq!(Vec::from_iter(found), ["affg_pso", "broyden", "cma_es", "fi_pso", "model", "pso", "sst"]);

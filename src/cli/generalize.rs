@@ -1,7 +1,8 @@
 //! `cgda generalize`: demonstrations in, goals out.
 
 use super::demonstrations::{ReadArguments, read_demonstrations};
-use crate::framework::generalization::{GeneralizeSpec, Generalized, Weighting, generalize, goals_to_csv};
+use super::values::Weighting;
+use crate::framework::generalization::{GeneralizeSpec, Generalized, generalize, goals_to_csv};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -39,7 +40,7 @@ pub struct GeneralizeArguments {
 pub fn run(arguments: &GeneralizeArguments) -> anyhow::Result<()> {
     let demonstrations = read_demonstrations(&arguments.files, &arguments.read)?;
     let features = (!arguments.features.is_empty()).then(|| arguments.features.clone());
-    let spec = GeneralizeSpec { t_min_s: arguments.t_min, weighting: arguments.weighting, features };
+    let spec = GeneralizeSpec { t_min_s: arguments.t_min, weighting: arguments.weighting.into(), features };
     let generalized = generalize(&demonstrations, &spec)?;
     if generalized.interpolated_bins > 0 {
         eprintln!("{} bins without samples were interpolated in time", generalized.interpolated_bins);

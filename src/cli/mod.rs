@@ -12,6 +12,7 @@ mod recognize;
 mod reproduce;
 mod run;
 mod serve;
+mod values;
 
 use crate::lifecycle::{EXIT_GATE, GateClosed};
 use clap::{Parser, Subcommand};

@@ -1,8 +1,9 @@
 //! `cgda recognize`: which of several actions a demonstration shows, or none.
 
 use super::demonstrations::{ReadArguments, read_demonstrations};
+use super::values::Metric;
 use crate::framework::generalization::{Generalized, Goals, goals_from_csv};
-use crate::framework::recognition::{Metric, Recognition, RecognizeSpec, observed_rows, recognize};
+use crate::framework::recognition::{Recognition, RecognizeSpec, observed_rows, recognize};
 use anyhow::{Context as _, bail};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -39,7 +40,7 @@ pub fn run(arguments: &RecognizeArguments) -> anyhow::Result<()> {
     let demonstrations = read_demonstrations(std::slice::from_ref(&arguments.observed), &arguments.read)?;
     let observed = observed_rows(&demonstrations[0])?;
     let actions = arguments.actions.iter().map(|path| action(path)).collect::<anyhow::Result<Vec<_>>>()?;
-    let spec = RecognizeSpec { metric: arguments.metric, threshold: arguments.threshold };
+    let spec = RecognizeSpec { metric: arguments.metric.into(), threshold: arguments.threshold };
     let recognition = recognize(&observed, &actions, &spec)?;
     for other in &recognition.incomparable {
         let found =

@@ -1,9 +1,9 @@
 //! `cgda reproduce`: reruns the paper's tables and figures.
 
 use super::experiment::finish;
-use crate::framework::experiment::paper::{PaperCell, PaperTables};
-use crate::framework::experiment::{Experiment, export, paper_figures};
-use crate::framework::preset;
+use crate::framework::experiment::{Experiment, export};
+use crate::reproduce::paper::{PaperCell, PaperTables};
+use crate::reproduce::{figures, paper_markdown, shipped};
 use anyhow::Context as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ pub struct ReproduceArguments {
 pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
     let tables = PaperTables::shipped()?.only(arguments.table);
     let spec = tables.experiment(arguments.seed, arguments.repetitions)?;
-    let plan = spec.plan(|name| preset::shipped(name).ok())?;
+    let plan = spec.plan(|name| shipped::preset(name).ok())?;
     let mut experiment = Experiment::new(plan);
     if let Some((_, error)) = finish(&mut experiment, arguments.threads)?.into_iter().next() {
         return Err(error.into());
@@ -47,14 +47,14 @@ pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
         return write_figures(folder, &experiment, &tables.cells);
     }
     let table = experiment.table();
-    let text = if arguments.csv { export::paper_csv(&table) } else { export::paper_markdown(&tables.cells, &table) };
+    let text = if arguments.csv { export::paper_csv(&table) } else { paper_markdown(&tables.cells, &table) };
     std::io::stdout().lock().write_all(text.as_bytes())?;
     Ok(())
 }
 
 fn write_figures(folder: &Path, experiment: &Experiment, cells: &[PaperCell]) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", folder.display()))?;
-    for (number, svg) in paper_figures::figures(experiment, cells)? {
+    for (number, svg) in figures::figures(experiment, cells)? {
         let path = folder.join(format!("figure-{number:02}.svg"));
         std::fs::write(&path, svg).with_context(|| format!("{} cannot be written", path.display()))?;
         eprintln!("{}", path.display());
@@ -70,7 +70,7 @@ mod tests {
     fn plan(table: Option<u8>, repetitions: u32) -> (PaperTables, Plan) {
         let tables = PaperTables::shipped().unwrap().only(table);
         let spec = tables.experiment(1, repetitions).unwrap();
-        let plan = spec.plan(|name| preset::shipped(name).ok()).unwrap();
+        let plan = spec.plan(|name| shipped::preset(name).ok()).unwrap();
         (tables, plan)
     }
 
@@ -94,7 +94,7 @@ mod tests {
         let (tables, plan) = plan(None, 1);
         let mut compared = 0;
         for (paper, cell) in tables.cells.iter().zip(&plan.cells).filter(|(paper, _)| paper.table <= 2) {
-            let mut preset = preset::shipped(&paper.preset).unwrap();
+            let mut preset = shipped::preset(&paper.preset).unwrap();
             assert!(preset.select_method(&paper.setting.to_lowercase().replace('-', "_")), "{}", paper.setting);
             assert_eq!(preset.problem, cell.problem, "{} {}", paper.preset, paper.setting);
             compared += 1;
@@ -116,9 +116,9 @@ mod tests {
         let table = experiment.table();
         let far: Vec<_> = tables.cells.iter().zip(&table).filter_map(|(cell, result)| near(cell, result)).collect();
         assert!(far.is_empty(), "{far:#?}");
-        let figures = paper_figures::figures(&experiment, &tables.cells).unwrap();
-        assert_eq!(figures.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [2, 4, 5, 6, 7, 8, 9, 10]);
-        for (number, svg) in figures {
+        let drawn = figures::figures(&experiment, &tables.cells).unwrap();
+        assert_eq!(drawn.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [2, 4, 5, 6, 7, 8, 9, 10]);
+        for (number, svg) in drawn {
             let document = roxmltree::Document::parse(&svg).unwrap();
             let title = document.root_element().first_element_child().unwrap().text().unwrap();
             assert!(title.starts_with(&format!("Figure {number}. ")), "{title}");

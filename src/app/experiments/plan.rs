@@ -5,9 +5,9 @@ use crate::app::model::{AppError, EveryTable, ExperimentRequest, FieldError, Pap
 use crate::app::ports::SEED_BOUND;
 use crate::app::{App, chain_text, check_name, compute};
 use crate::framework::execution::Iet;
-use crate::framework::experiment::paper::PaperTables;
-use crate::framework::experiment::{ExperimentSpec, MatrixSpec, Plan};
-use crate::framework::preset;
+use crate::framework::experiment::{CellSpec, ExperimentSpec, MatrixSpec, Plan};
+use crate::reproduce::paper::PaperTables;
+use crate::reproduce::shipped;
 
 /// Most cells of one experiment: each keeps its whole problem.
 const MAX_CELLS: usize = 1000;
@@ -74,7 +74,7 @@ fn plan(request: &ExperimentRequest, name: String, seed: u64) -> Result<Plan, Ap
     let spec = ExperimentSpec { name, seed, repetitions, cells, matrix: request.matrix.clone() };
     let wrong =
         |error: &(dyn std::error::Error + 'static)| AppError::field("", "invalid_experiment", chain_text(error));
-    let plan = spec.plan(|name| preset::shipped(name).ok()).map_err(|error| wrong(&error))?;
+    let plan = spec.plan(|name| shipped::preset(name).ok()).map_err(|error| wrong(&error))?;
     if plan.runs() > MAX_RUNS {
         let detail = format!("{} runs are more than {MAX_RUNS}: split the experiment", plan.runs());
         return Err(AppError::field("/repetitions", "out_of_range", detail));
@@ -92,11 +92,7 @@ fn plan(request: &ExperimentRequest, name: String, seed: u64) -> Result<Plan, Ap
     if errors.is_empty() { Ok(plan) } else { Err(AppError::invalid(errors)) }
 }
 
-fn paper_cells(
-    wanted: Option<PaperTable>,
-    seed: u64,
-    repetitions: u32,
-) -> Result<Vec<crate::framework::experiment::CellSpec>, AppError> {
+fn paper_cells(wanted: Option<PaperTable>, seed: u64, repetitions: u32) -> Result<Vec<CellSpec>, AppError> {
     let only = match wanted {
         None => return Ok(Vec::new()),
         Some(PaperTable::Every(EveryTable::All)) => None,

@@ -123,9 +123,9 @@ impl App {
 mod tests {
     use super::*;
     use crate::app::model::{RobotId, Timestamp};
-    use crate::framework::preset::shipped;
     use crate::framework::robot::{Chain, RobotModel, summarize, summarize_chain};
     use crate::framework::world::RealitySpec;
+    use crate::reproduce::shipped;
 
     fn robot(problem: &Problem) -> RobotView {
         let model = RobotModel::from_urdf(&problem.urdf).unwrap();
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_setting_is_all_that_decides_what_a_pose_shows_and_nothing_else() {
-        let problem = shipped("wax").unwrap().problem;
+        let problem = shipped::preset("wax").unwrap().problem;
         let of = |problem: &Problem, seed, repetitions| setting(&robot(problem), problem, seed, repetitions);
         let same = of(&problem, 1, 1);
         assert!(same.is_some());
@@ -162,6 +162,6 @@ mod tests {
         let mut own = drawn.clone();
         own.execution.reality.as_mut().unwrap().seed = Some(1);
         assert_eq!(of(&own, 7, 3), of(&drawn, 1, 1));
-        assert_eq!(of(&shipped("paint").unwrap().problem, 1, 1), None, "what a pose paints changes with time");
+        assert_eq!(of(&shipped::preset("paint").unwrap().problem, 1, 1), None, "what a pose paints changes with time");
     }
 }

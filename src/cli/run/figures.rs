@@ -56,11 +56,11 @@ impl Figures {
 mod tests {
     use super::*;
     use crate::framework::execution::run;
-    use crate::framework::preset::shipped;
+    use crate::reproduce::shipped;
 
     #[test]
     fn all_runs_count_alike() {
-        let mut preset = shipped("polish").unwrap();
+        let mut preset = shipped::preset("polish").unwrap();
         assert!(preset.select_method("model"));
         let one = run(&preset.problem, 1).unwrap();
         let runs: Vec<RunResult> =

@@ -2,12 +2,13 @@
 
 use super::reality::{RealityArguments, SurfaceArguments};
 use crate::cli::demonstrations::{ReadArguments, read_demonstrations};
+use crate::cli::values::{Metric, Weighting};
 use crate::framework::execution::{ExecutionSpec, Problem};
-use crate::framework::generalization::{GeneralizeSpec, Weighting, generalize};
+use crate::framework::generalization::{GeneralizeSpec, generalize};
 use crate::framework::method::per_goal::{MethodSpec, SstSpec};
 use crate::framework::preset::{self, Preset};
-use crate::framework::recognition::Metric;
 use crate::framework::robot::RobotSpec;
+use crate::reproduce::shipped;
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
@@ -100,7 +101,7 @@ fn adjusted(mut named: Preset, arguments: &ProblemArguments) -> anyhow::Result<P
     execution.tolerance = arguments.tolerance.or(execution.tolerance);
     execution.target_discrepancy = arguments.target_discrepancy.or(execution.target_discrepancy);
     execution.max_evaluations_per_goal = arguments.max_evaluations_per_goal.or(execution.max_evaluations_per_goal);
-    execution.metric = arguments.metric.unwrap_or(execution.metric);
+    execution.metric = arguments.metric.map_or(execution.metric, Into::into);
     arguments.reality.apply(&mut named.problem);
     named.problem.choose();
     Ok(named)
@@ -114,7 +115,7 @@ fn read_preset(name: &str) -> anyhow::Result<Preset> {
     let path = Path::new(name);
     let is_file = path.extension().is_some_and(|e| e == "toml") || path.components().count() > 1;
     if !is_file {
-        return Ok(preset::shipped(name)?);
+        return Ok(shipped::preset(name)?);
     }
     let folder = path.parent().unwrap_or(Path::new("."));
     let stem = path.file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
@@ -130,7 +131,7 @@ fn from_demonstrations(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
     let world = preset::parse_world(&world.display().to_string(), &read_text(world)?)?;
     let demonstrations = read_demonstrations(&arguments.files, &arguments.read)?;
     let features = (!arguments.features.is_empty()).then(|| arguments.features.clone());
-    let spec = GeneralizeSpec { t_min_s: arguments.t_min, weighting: arguments.weighting, features };
+    let spec = GeneralizeSpec { t_min_s: arguments.t_min, weighting: arguments.weighting.into(), features };
     let generalized = generalize(&demonstrations, &spec)?;
     let robot = RobotSpec {
         base_link: arguments.base_link.clone(),

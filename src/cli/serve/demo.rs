@@ -8,8 +8,9 @@ use crate::app::model::{
     WorldId,
 };
 use crate::framework::generalization::Weighting;
-use crate::framework::preset::{self, Preset};
+use crate::framework::preset::Preset;
 use crate::framework::recognition::Metric;
+use crate::reproduce::shipped;
 use std::time::Duration;
 
 /// A shipped demonstration: name and bytes.
@@ -81,7 +82,7 @@ async fn fill_if_empty(app: &App) -> Result<bool, AppError> {
     }
     let mut robot = None;
     for scene in &SCENES {
-        let preset = preset::shipped(scene.preset).map_err(AppError::internal)?;
+        let preset = shipped::preset(scene.preset).map_err(AppError::internal)?;
         let robot = match &robot {
             Some(robot) => robot,
             None => robot.insert(create_robot(app, &preset).await?),

@@ -6,9 +6,8 @@ use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
 /// Format of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-#[clap(rename_all = "snake_case")]
 pub enum Format {
     /// Separated by comma, semicolon or tab, with a header line.
     Csv,
@@ -20,9 +19,8 @@ pub enum Format {
 }
 
 /// Treatment of the clocks of a demonstration's streams.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-#[clap(rename_all = "snake_case")]
 pub enum ClockPolicy {
     /// Times stay as they were recorded.
     #[default]

@@ -1,7 +1,6 @@
 //! Tables as text: CSV for machines, Markdown for people. Numbers in CSV are written to the last bit.
 
-use super::paper::PaperCell;
-use super::{CellResult, PairedComparison, Summary, agreement};
+use super::{CellResult, PairedComparison, Summary};
 use std::fmt::Write;
 
 /// Columns of [`paper_csv`].
@@ -80,7 +79,8 @@ pub fn full_csv(results: &[CellResult]) -> String {
 }
 
 /// Markdown with aligned columns; the first `names` columns are text, the rest numbers.
-fn markdown_table(header: &[&str], rows: &[Vec<String>], names: usize) -> String {
+#[must_use]
+pub fn markdown_table(header: &[&str], rows: &[Vec<String>], names: usize) -> String {
     let width = |k: usize| {
         let cells = rows.iter().map(|row| row[k].chars().count());
         cells.chain([header[k].chars().count(), 3]).max().unwrap_or(3)
@@ -106,11 +106,15 @@ fn markdown_table(header: &[&str], rows: &[Vec<String>], names: usize) -> String
     text
 }
 
-fn rounded(number: Option<f64>, decimals: usize) -> String {
+/// The number with that many decimals; `-` if there is none.
+#[must_use]
+pub fn rounded(number: Option<f64>, decimals: usize) -> String {
     number.map_or_else(|| "-".to_owned(), |number| format!("{number:.decimals$}"))
 }
 
-fn spread(summary: Option<Summary>, decimals: usize) -> String {
+/// Mean and standard deviation; `-` if there is no run.
+#[must_use]
+pub fn spread(summary: Option<Summary>, decimals: usize) -> String {
     let Some(s) = summary else { return "-".to_owned() };
     format!("{} \u{b1} {}", rounded(Some(s.mean), decimals), rounded(s.sd, decimals))
 }
@@ -154,70 +158,6 @@ pub fn markdown(results: &[CellResult]) -> String {
         ]
     };
     markdown_table(&HEADER, &results.iter().map(row).collect::<Vec<_>>(), 3)
-}
-
-/// The paper's tables as Markdown: ours beside published and raw, the ratio to raw, and whether it agrees; below, all
-/// means together.
-///
-/// # Panics
-/// If there are not as many cells as results.
-#[must_use]
-pub fn paper_markdown(cells: &[PaperCell], results: &[CellResult]) -> String {
-    const HEADER: [&str; 15] = [
-        "table",
-        "action",
-        "setting",
-        "agrees",
-        "evaluations",
-        "raw",
-        "ratio",
-        "published",
-        "discrepancy",
-        "raw",
-        "ratio",
-        "published",
-        "painted %",
-        "published",
-        "invalid",
-    ];
-    assert_eq!(cells.len(), results.len(), "one result a cell");
-    let known = |mean: f64, sd: Option<f64>, decimals: usize| match sd {
-        Some(sd) => format!("{mean:.decimals$} \u{b1} {sd:.decimals$}"),
-        None => format!("{mean:.decimals$}"),
-    };
-    let row = |(cell, r): (&PaperCell, &CellResult)| {
-        let ratio = |summary: Option<Summary>, raw: f64| rounded(summary.map(|s| s.mean / raw), 3);
-        let outside: Vec<&str> = cell.disagreements(r).iter().map(|d| d.quantity).collect();
-        vec![
-            cell.table.to_string(),
-            cell.action.clone(),
-            cell.setting.clone(),
-            if outside.is_empty() { "yes".to_owned() } else { format!("no: {}", outside.join(", ")) },
-            spread(r.evaluations, 0),
-            known(cell.raw.evaluations, cell.raw.evaluations_sd, 0),
-            ratio(r.evaluations, cell.raw.evaluations),
-            rounded(Some(cell.published.evaluations), 0),
-            spread(r.discrepancy, 1),
-            known(cell.raw.discrepancy, cell.raw.discrepancy_sd, 1),
-            ratio(r.discrepancy, cell.raw.discrepancy),
-            rounded(Some(cell.published.discrepancy), 1),
-            rounded(r.painted.map(|s| s.mean), 2),
-            rounded(cell.published.painted_percent, 2),
-            r.invalid.to_string(),
-        ]
-    };
-    let mut text = markdown_table(&HEADER, &cells.iter().zip(results).map(row).collect::<Vec<_>>(), 4);
-    if let Some(found) = agreement(cells, results) {
-        let (k, (cell, quantity, z)) = (found.means, found.largest);
-        let spread = (2.0 * k as f64).sqrt();
-        let _ = write!(
-            text,
-            "\n{k} means against the raw logs: sum of z\u{b2} = {:.1}, by chance {k} \u{b1} {spread:.1} (p = {:.2}); \
-             largest z = {z:+.1}, table {}, {}, {quantity}\n",
-            found.sum_of_squares, found.p_value, cells[cell].table, cells[cell].setting
-        );
-    }
-    text
 }
 
 /// A paired comparison in one sentence.

@@ -1,16 +1,12 @@
-//! Experiments: many runs of many settings, their statistics, and the paper's tables among them.
+//! Experiments: many runs of many settings, and their statistics.
 //!
 //! # Architecture Invariants
 //! - An experiment's state is its plan and the set of its finished runs, nothing else: whoever runs the pending ones, in
 //!   whatever order and on however many threads, gets the same table to the last digit.
 //! - Every cell runs the same seeds, so cells are compared pair by pair.
 
-mod agreement;
 pub mod export;
-pub mod figure;
 mod paired;
-pub mod paper;
-pub mod paper_figures;
 mod patch;
 mod result;
 mod run;
@@ -20,8 +16,8 @@ mod summary;
 #[cfg(test)]
 mod tests;
 
-pub use agreement::{Agreement, Disagreement, agreement};
 pub use paired::{PairedComparison, compare};
+pub use patch::merge;
 pub use result::{CellResult, Quantity};
 pub use run::{RunError, result, run, run_while};
 pub use spec::{Cell, CellSpec, ExperimentError, ExperimentSpec, InvalidRule, MAX_RUNS, MatrixSpec, Plan, Variant};

@@ -1,7 +1,7 @@
 //! Overrides: what a cell changes in its preset, as a JSON merge patch (RFC 7396) over the problem.
 //!
-//! One rule is added for choices that carry a tag (`name`, `kind`, `strategy`, `shape`, `at`): a patch that picks another one replaces the whole
-//! choice, so the parameters of one method never leak into the next.
+//! One rule is added for choices that carry a tag (`name`, `kind`, `strategy`, `shape`, `at`): a patch that picks another
+//! one replaces the whole choice, so the parameters of one method never leak into the next.
 
 use serde_json::{Map, Value};
 
@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 const TAGS: [&str; 5] = ["name", "kind", "strategy", "shape", "at"];
 
 /// `target` after `patch`: objects merge key by key, null removes a key, anything else replaces.
-pub(super) fn merge(target: &mut Value, patch: &Value) {
+pub fn merge(target: &mut Value, patch: &Value) {
     let Value::Object(changes) = patch else {
         *target = patch.clone();
         return;

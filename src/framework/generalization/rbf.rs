@@ -17,9 +17,8 @@ const MAX_POINTS: usize = 100_000;
 const TOLERANCE: f64 = 1e-6;
 
 /// Radial function phi(r); epsilon is a length in normalised time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-#[clap(rename_all = "snake_case")]
 pub enum RbfKernel {
     /// sqrt((r / epsilon)^2 + 1).
     #[default]

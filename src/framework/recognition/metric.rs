@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 /// How dynamic time warping (DTW) turns two feature trajectories into one discrepancy.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
-#[clap(rename_all = "snake_case")]
 pub enum Metric {
     /// One optimal path per feature, the normalised costs summed (paper eq. 4-6): each feature's distance is divided by
     /// I + J, the number of rows on both sides (Sakoe and Chiba's normaliser, the same for every path).

@@ -5,7 +5,7 @@
 use super::FigureError;
 use super::canvas::{Area, Axis, Drawn, LEFT, RIGHT, Scale, marker, page, panel, pixel, pixels, plain_line};
 use super::style::{GREY, WIDTH, colour, text};
-use crate::experiment::Summary;
+use crate::framework::experiment::Summary;
 use plotters::element::{PathElement, Text};
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

@@ -4,16 +4,15 @@
 //! continuous goal-directed actions in smart city applications"; raw means and spreads
 //! from the authors' published logs.
 
-use super::patch::merge;
-use super::{CellSpec, ExperimentSpec, InvalidRule};
-use crate::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side};
+use crate::framework::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side};
+use crate::framework::experiment::{CellSpec, ExperimentSpec, InvalidRule, merge};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
 
 /// The shipped file.
-const TABLES: &str = include_str!("../../../examples/experiments/paper-tables.toml");
+const TABLES: &str = include_str!("../../examples/experiments/paper-tables.toml");
 
 /// One published cell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]

@@ -8,20 +8,19 @@ use super::figure::{
     demonstrations, trails,
 };
 use super::paper::PaperCell;
-use super::run::{RunError, result};
-use super::{Experiment, RunId};
-use crate::demonstration::{Demonstration, Finding, ReadOptions, Stream, read};
-use crate::execution::ProblemError;
-use crate::generalization::{GeneralizeError, GeneralizeSpec, RbfError, RbfSpec, generalize, interpolate};
-use crate::robot::{Chain, RobotModel};
-use crate::world::{self, WorldSpec};
+use crate::framework::demonstration::{Demonstration, Finding, ReadOptions, Stream, read};
+use crate::framework::execution::ProblemError;
+use crate::framework::experiment::{Experiment, RunError, RunId, result};
+use crate::framework::generalization::{GeneralizeError, GeneralizeSpec, RbfError, RbfSpec, generalize, interpolate};
+use crate::framework::robot::{Chain, RobotModel};
+use crate::framework::world::{self, WorldSpec};
 
 /// The wax demonstrations of the examples, synthetic: the paper's own were not published.
 const WAX: [(&str, &str); 4] = [
-    ("demo-1", include_str!("../../../examples/demonstrations/wax/demo-1.csv")),
-    ("demo-2", include_str!("../../../examples/demonstrations/wax/demo-2.csv")),
-    ("demo-3", include_str!("../../../examples/demonstrations/wax/demo-3.csv")),
-    ("demo-4", include_str!("../../../examples/demonstrations/wax/demo-4.csv")),
+    ("demo-1", include_str!("../../examples/demonstrations/wax/demo-1.csv")),
+    ("demo-2", include_str!("../../examples/demonstrations/wax/demo-2.csv")),
+    ("demo-3", include_str!("../../examples/demonstrations/wax/demo-3.csv")),
+    ("demo-4", include_str!("../../examples/demonstrations/wax/demo-4.csv")),
 ];
 
 /// T_min that gives the nine goals of the paper's wax, s.

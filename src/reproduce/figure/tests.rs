@@ -1,8 +1,8 @@
 //! Every figure is well-formed SVG with its axes named, and the same data give the same bytes.
 
 use super::*;
-use crate::Feature;
-use crate::experiment::Summary;
+use crate::framework::Feature;
+use crate::framework::experiment::Summary;
 
 fn curve(name: &str, slope: f64) -> Accumulation {
     let after = |goal: i32| Summary::of(&[slope * f64::from(goal) * 0.8, slope * f64::from(goal) * 1.2]).unwrap();

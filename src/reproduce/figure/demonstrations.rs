@@ -6,7 +6,7 @@ use super::canvas::{
     Area, Axis, Drawn, HEADER, STRIP, Sample, Scale, legend_row, marker, page, panel, pixel, plain_line,
 };
 use super::style::{GREY, WIDTH, colour};
-use crate::Feature;
+use crate::framework::Feature;
 
 /// One feature over time; all times in s on the mean demonstration's scale.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! How near our tables come to the authors' raw logs: cell by cell within bands, and all means together.
 
 use super::paper::PaperCell;
-use super::{CellResult, Summary};
+use crate::framework::experiment::{CellResult, Summary};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 impl PaperCell {
@@ -86,7 +86,7 @@ pub fn agreement(cells: &[PaperCell], results: &[CellResult]) -> Option<Agreemen
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::paper::PaperTables;
+    use crate::reproduce::paper::PaperTables;
 
     /// A result with that many sds (raw where known, else 1) beyond the raw means; two runs of the raw sd's spread.
     fn beyond(cell: &PaperCell, sds: f64) -> CellResult {

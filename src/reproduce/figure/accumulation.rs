@@ -4,7 +4,7 @@
 use super::FigureError;
 use super::canvas::{Area, Axis, Drawn, HEADER, LEGEND, Sample, Scale, legend, marker, page, panel, pixel, plain_line};
 use super::style::{WIDTH, colour};
-use crate::experiment::Summary;
+use crate::framework::experiment::Summary;
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
