@@ -102,7 +102,7 @@ impl RandomStream {
         usize::try_from(wide >> 64).unwrap_or(0)
     }
 
-    /// One of `items`, uniformly; `None` if there is none.
+    /// One of `items`, uniformly; `None` if there are none.
     pub fn pick<'a, T>(&mut self, items: &'a [T]) -> Option<&'a T> {
         let count = u32::try_from(items.len()).unwrap_or(u32::MAX);
         items.get(self.index(count) as usize)

@@ -1,4 +1,4 @@
-//! ActionService.
+//! `ActionService`.
 
 use super::convert::{items, page, required, resource, text, work};
 use super::error::status;
@@ -8,7 +8,7 @@ use crate::app::App;
 use proto::action_service_server::ActionService;
 use tonic::{Request, Response, Status};
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]

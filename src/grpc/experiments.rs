@@ -9,7 +9,7 @@ use crate::app::App;
 use proto::experiment_service_server::ExperimentService;
 use tonic::{Request, Response, Status};
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]

@@ -1,4 +1,4 @@
-//! `grpc.health.v1`: the same readiness as `/readyz`, for the server (the empty name) and each of its services.
+//! `grpc.health.v1`: the same readiness as `/readyz`, for the server (empty name) and each of its services.
 
 use crate::app::App;
 use crate::grpc::proto;
@@ -24,12 +24,12 @@ const NAMES: [&str; 10] = [
     proto::world_service_server::SERVICE_NAME,
 ];
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service {
     app: App,
 }
 
-/// Answers for the server and its services.
+/// Health service for the server and its services.
 pub fn server(app: App) -> HealthServer<Service> {
     HealthServer::new(Service { app })
 }

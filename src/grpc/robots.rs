@@ -1,4 +1,4 @@
-//! RobotService.
+//! `RobotService`.
 
 use super::convert::{items, page, resource, robot};
 use super::error::status;
@@ -7,7 +7,7 @@ use crate::app::App;
 use proto::robot_service_server::RobotService;
 use tonic::{Request, Response, Status};
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]

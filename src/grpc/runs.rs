@@ -1,4 +1,4 @@
-//! RunService.
+//! `RunService`.
 
 use super::convert::trajectory::split;
 use super::convert::{items, page, reference, resource};
@@ -9,7 +9,7 @@ use crate::app::model::RunFilter;
 use proto::run_service_server::RunService;
 use tonic::{Request, Response, Status};
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]

@@ -1,4 +1,4 @@
-//! WorldService.
+//! `WorldService`.
 
 use super::convert::{items, page, resource, world};
 use super::error::status;
@@ -7,7 +7,7 @@ use crate::app::App;
 use proto::world_service_server::WorldService;
 use tonic::{Request, Response, Status};
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]

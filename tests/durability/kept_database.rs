@@ -18,7 +18,7 @@ fn unpacked(path: &Path) -> GzDecoder<File> {
     GzDecoder::new(File::open(path).unwrap())
 }
 
-/// Where `now` lacks or changes a value of `then`, one line per place. New fields are no difference.
+/// Places at which `now` lacks or changes a value of `then`, one line each. New fields are not differences.
 fn differences(then: &Value, now: &Value, at: &str, found: &mut Vec<String>) {
     match (then, now) {
         (Value::Object(old), Value::Object(new)) => {
@@ -52,7 +52,7 @@ async fn reads_back_and_goes_on(folder: &str) {
     let paused = answers["paused"].as_str().unwrap();
     let mut found = Vec::new();
     for (path, then) in answers["answers"].as_object().unwrap() {
-        // Lists also hold what the resumed jobs add meanwhile.
+        // Lists also contain results of the resumed jobs.
         let is_list_that_grows = path.starts_with("/runs?");
         if is_list_that_grows {
             continue;

@@ -3,7 +3,7 @@
 use crate::app::model::{AppError, FieldError};
 use crate::app::ports::StoreError;
 
-/// What was found; a reference to nothing becomes one of `errors`.
+/// The resource found; a missing reference is recorded in `errors`.
 pub(super) fn look_up<T>(
     errors: &mut Vec<FieldError>,
     pointer: &str,

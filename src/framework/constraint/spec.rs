@@ -1,30 +1,30 @@
-//! Constraints and their handling as users write them (TOML presets, REST).
+//! Constraints and their handling as written by users (TOML presets, REST).
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// What a candidate must satisfy; `kind` picks one.
+/// A condition on candidates; `kind` selects the variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ConstraintSpec {
-    /// A point of the robot stays strictly inside a region.
+    /// A point of the robot stays strictly inside or outside a region.
     Region(RegionSpec),
-    /// Distance from the individuals a candidate was bred from (the paper's velocity limit).
+    /// Limits the distance from the individuals a candidate was bred from (the paper's velocity limit).
     PopulationVelocity(PopulationVelocitySpec),
-    /// Step of each joint from the previous goal's joints: what a robot needs.
+    /// Limits the step of each joint from the previous goal's joints; this is what a real robot needs.
     JointStep(JointStepSpec),
 }
 
-/// A point of the robot and the region it stays in, or out of.
+/// A point of the robot and the region it stays inside or outside of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegionSpec {
     /// The region, in the chain's base frame.
     pub geometry: GeometrySpec,
-    /// On which side of its boundary the point stays.
+    /// Side of the boundary on which the point stays.
     #[serde(default, skip_serializing_if = "Side::is_inside")]
     pub side: Side,
-    /// Which point it is; the tool centre point when absent.
+    /// The constrained point; the tool centre point if absent.
     #[serde(default)]
     pub point: PointSpec,
 }
@@ -33,10 +33,10 @@ pub struct RegionSpec {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// The point stays in the region: a workspace.
+    /// The point stays inside the region, for example a workspace.
     #[default]
     Inside,
-    /// The point stays out of it: an obstacle, a person's place.
+    /// The point stays outside the region, for example an obstacle or a person's space.
     Outside,
 }
 
@@ -47,38 +47,38 @@ impl Side {
     }
 }
 
-/// A convex region in the base frame; its boundary is on neither side.
+/// A convex region in the base frame; its boundary belongs to neither side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 pub enum GeometrySpec {
-    /// Axis-aligned bounding box, every side moved outwards by the dilatation.
+    /// Axis-aligned box, each side moved outwards by the dilatation.
     Box {
         /// Lower corner, m.
         lower_m: [f64; 3],
         /// Upper corner, m.
         upper_m: [f64; 3],
-        /// Outward motion of each side, m; may be negative.
+        /// Distance by which each side moves outwards, m; may be negative.
         #[serde(default)]
         dilatation_m: f64,
     },
-    /// Sphere.
+    /// Sphere around a centre.
     Sphere {
         /// Centre, m.
         center_m: [f64; 3],
         /// Radius, m (> 0).
         radius_m: f64,
     },
-    /// Convex hull of 4 to 128 points, every face moved outwards by the dilatation.
+    /// Convex hull of 4 to 128 points, each face moved outwards by the dilatation.
     Hull {
-        /// The points, m.
+        /// Points, base frame, m.
         points_m: Vec<[f64; 3]>,
-        /// Outward motion of each face, m; may be negative.
+        /// Distance by which each face moves outwards, m; may be negative.
         #[serde(default)]
         dilatation_m: f64,
     },
     /// Intersection of half-spaces.
     Polyhedron {
-        /// The half-spaces, at least one.
+        /// One or more half-spaces.
         half_spaces: Vec<HalfSpace>,
     },
 }
@@ -87,9 +87,9 @@ pub enum GeometrySpec {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpace {
-    /// Outward direction, any length but 0.
+    /// Outward normal, any non-zero length.
     pub normal: [f64; 3],
-    /// normal . p on the boundary, m (times the normal's length).
+    /// Value of normal . p on the boundary, m (times the normal's length).
     pub offset_m: f64,
 }
 
@@ -100,44 +100,44 @@ pub enum PointSpec {
     /// The tool centre point.
     #[default]
     Tool,
-    /// A point fixed to a link of the same robot, such as its elbow.
+    /// A point fixed to a link of the same robot, for example its elbow.
     Link {
         /// Name of the link; it must lie between base and tip.
         link: String,
-        /// The point in the link's frame, m.
+        /// Position in the link's frame, m.
         #[serde(default)]
         offset_m: [f64; 3],
     },
-    /// The tip of a serial chain written out here and driven by the robot's free joints: the published runs judged
-    /// their boxes by a chain slightly different from the one they executed.
+    /// The tip of a serial chain given explicitly and driven by the robot's free joints: the published runs checked
+    /// their boxes on a chain slightly different from the executed one.
     Chain {
-        /// The joints, base first.
+        /// Joints of the chain, base first.
         joints: Vec<ChainJoint>,
-        /// The point after the last joint, m.
+        /// Position of the point after the last joint, m.
         tip_m: [f64; 3],
     },
 }
 
-/// One revolute joint of a written-out chain.
+/// One revolute joint of an explicit chain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ChainJoint {
-    /// The free joint of the robot whose angle it takes.
+    /// Free joint of the robot whose angle it follows.
     pub joint: String,
-    /// From the previous joint's frame to this one's, m.
+    /// Translation from the previous joint's frame to this one's, m.
     pub offset_m: [f64; 3],
-    /// Axis in that frame, any length but 0.
+    /// Axis in that frame, any non-zero length.
     pub axis: [f64; 3],
 }
 
 /// `sum over joints |child - parent| < limit` for at least one of the individuals a candidate was bred from.
 ///
-/// It limits the distance within the population, not the step between goals. Candidates without ancestors (a random
+/// This limits the distance within the population, not the step between goals. Candidates without ancestors (a random
 /// initial population) satisfy it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PopulationVelocitySpec {
-    /// V, rad (or m), > 0.
+    /// Limit V, rad (or m), > 0.
     pub limit_rad: f64,
 }
 
@@ -147,36 +147,36 @@ pub struct PopulationVelocitySpec {
 pub struct JointStepSpec {
     /// Largest step, rad (or m), > 0.
     pub limit_rad: f64,
-    /// Joints before the first goal (rad or m); when absent the first goal may lie anywhere.
+    /// Joints before the first goal (rad or m); if absent, the first goal is not limited.
     #[serde(default)]
     pub start: Option<Vec<f64>>,
 }
 
-/// What happens to a candidate that violates a constraint; `strategy` picks one.
+/// Treatment of a candidate that violates a constraint; `strategy` selects the variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "strategy", rename_all = "snake_case", deny_unknown_fields)]
 pub enum HandlingSpec {
-    /// It is not executed; the optimiser makes another in its place, at most `max_attempts` times.
+    /// The candidate is discarded and the optimiser proposes another, at most `max_attempts` times.
     Rejecting {
-        /// Attempts for one candidate before it counts as failed.
+        /// Number of attempts before a candidate counts as failed.
         #[serde(default = "attempts")]
         max_attempts: u32,
     },
-    /// It is moved back along the line to the best feasible candidate known (else to a random feasible one) until it
-    /// is feasible; the optimiser goes on with the repaired one.
+    /// The candidate is moved along the line towards the best known feasible one (or else a random one) until it is
+    /// feasible; the optimiser continues with the repaired candidate.
     Repairing {
-        /// Random candidates tried where no feasible one is known.
+        /// Number of random candidates tried if no feasible one is known.
         #[serde(default = "attempts")]
         max_attempts: u32,
     },
-    /// The operators are closed: the step from the individual it was bred from is halved until it is feasible, and a
+    /// The variation operators stay feasible: the step from the parent is halved until the child is feasible, and a
     /// random initial population is drawn from the feasible region.
     Operators {
-        /// Random candidates tried where no feasible one is known.
+        /// Number of random candidates tried if no feasible one is known.
         #[serde(default = "attempts")]
         max_attempts: u32,
     },
-    /// Its fitness is made worse.
+    /// The candidate's fitness is made worse.
     Penalty(PenaltySpec),
 }
 
@@ -195,42 +195,42 @@ impl Default for HandlingSpec {
     }
 }
 
-/// How much worse, and how that is applied.
+/// Size of a penalty and how it is applied.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PenaltySpec {
-    /// f + p or f (1 + p).
+    /// Formula: f + p or f (1 + p).
     #[serde(default)]
     pub form: PenaltyForm,
-    /// The size p of the penalty.
+    /// Size p of the penalty.
     pub penalty: PenaltyKind,
 }
 
-/// How a penalty p enters a discrepancy f.
+/// How a penalty p changes a discrepancy f.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PenaltyForm {
-    /// f + p, p = 0 where feasible (paper eq. 7).
+    /// f + p with p = 0 if feasible (paper eq. 7).
     #[default]
     Additive,
-    /// f (1 + p), the factor is 1 where feasible (paper eq. 8).
+    /// f (1 + p), whose factor is 1 if feasible (paper eq. 8).
     Multiplicative,
 }
 
-/// The size p of a penalty for violations `v_k` (m or rad) in generation t; `kind` picks one. All but `death` execute
-/// the candidate: use them in simulation.
+/// Size p of a penalty for violations `v_k` (m or rad) in generation t; `kind` selects the variant. All except `death`
+/// execute the candidate, so use them in simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PenaltyKind {
-    /// The fitness is this value whatever the violation; the candidate is neither executed nor counted.
+    /// A fixed fitness regardless of the violation; the candidate is neither executed nor counted.
     Death {
-        /// The fitness, features' unit.
+        /// Fitness of an infeasible candidate, features' unit.
         #[serde(default = "death")]
         value: f64,
     },
     /// p = weight sum v^exponent.
     Static {
-        /// Penalty of a violation of 1 m or rad.
+        /// Penalty per violation of 1 m or rad.
         weight: f64,
         /// Exponent (> 0).
         #[serde(default = "two")]
@@ -238,38 +238,38 @@ pub enum PenaltyKind {
     },
     /// p = (weight t)^growth sum v^exponent.
     Dynamic {
-        /// C.
+        /// Coefficient C.
         weight: f64,
-        /// alpha (> 0).
+        /// Exponent alpha (> 0).
         #[serde(default = "two")]
         growth: f64,
-        /// beta (> 0).
+        /// Exponent beta (> 0).
         #[serde(default = "two")]
         exponent: f64,
     },
-    /// p = lambda sum v^2; lambda is divided by `relax` after `window` generations with a feasible best and multiplied
+    /// p = lambda sum v^2; lambda is divided by `relax` after `window` generations with a feasible best, and multiplied
     /// by `tighten` after as many with an infeasible one.
     Adaptive {
-        /// lambda in the first generation.
+        /// Initial lambda.
         weight: f64,
-        /// Generations looked at (at least 1).
+        /// Number of generations considered (at least 1).
         #[serde(default = "three")]
         window: u32,
-        /// Divisor (> 1), other than `tighten`, so that lambda cannot cycle.
+        /// Divisor (> 1); must differ from `tighten`, so that lambda cannot cycle.
         #[serde(default = "relax")]
         relax: f64,
         /// Factor (> 1).
         #[serde(default = "tighten")]
         tighten: f64,
     },
-    /// p = sum v^2 / (2 tau); tau = temperature cooling^t, not below `frozen`.
+    /// p = sum v^2 / (2 tau) with tau = temperature cooling^t, but at least `frozen`.
     Annealing {
-        /// tau in generation 0.
+        /// Initial tau.
         temperature: f64,
-        /// Factor of each generation (0 to 1).
+        /// Factor per generation (0 to 1).
         #[serde(default = "cooling")]
         cooling: f64,
-        /// Least tau (> 0).
+        /// Smallest tau (> 0).
         #[serde(default = "frozen")]
         frozen: f64,
     },
@@ -314,14 +314,15 @@ fn frozen() -> f64 {
     PenaltyKind::FROZEN
 }
 
-/// What happens to a goal for which no feasible candidate was found.
+/// Treatment of a goal for which no feasible candidate was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OnInfeasible {
-    /// The run ends there and says so: no infeasible pose is ever part of a result.
+    /// The run ends and reports it: no infeasible pose is ever part of a result.
     #[default]
     Stop,
-    /// The least bad candidate is appended and the run goes on, as in the published runs; the run is invalid if that
-    /// happens at its last goal. Needs a penalty: the other strategies give infeasible candidates no discrepancy.
+    /// The least bad candidate is appended and the run continues, as in the published runs; the run is invalid if this
+    /// happens at its last goal. Requires a penalty, because the other strategies give infeasible candidates no
+    /// discrepancy.
     Append,
 }

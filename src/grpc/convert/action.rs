@@ -1,4 +1,4 @@
-//! Actions.
+//! Conversion of actions.
 
 use super::enumeration::Enumeration as _;
 use super::{all, time};

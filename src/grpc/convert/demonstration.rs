@@ -1,4 +1,4 @@
-//! Demonstrations.
+//! Conversion of demonstrations.
 
 use super::enumeration::Enumeration as _;
 use super::{all, finite_or_none, text, time};

@@ -15,7 +15,7 @@ use crate::framework::trajectory::LimitKind;
 use crate::framework::world::SurfaceView;
 use crate::grpc::proto;
 
-/// An enumeration with a message of its own.
+/// A Rust enumeration that corresponds to one in the protocol.
 pub trait Enumeration: Sized {
     /// The value of that number; `None` if it is unspecified.
     ///

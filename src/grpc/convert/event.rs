@@ -1,4 +1,4 @@
-//! Events of jobs.
+//! Conversion of job events.
 
 use super::enumeration::Enumeration as _;
 use super::time;

@@ -104,7 +104,7 @@ impl From<ExperimentRequest> for proto::ExperimentSpec {
 }
 
 impl From<PaperTable> for Table {
-    /// Unspecified for a number without a table, which the service refuses and so never keeps.
+    /// Unspecified for a number without a table, which the service rejects and therefore never stores.
     fn from(table: PaperTable) -> Self {
         match table {
             PaperTable::Number(1) => Self::PaperTable1,

@@ -1,4 +1,4 @@
-//! What is shown of experiments.
+//! Conversion of experiment views.
 
 use super::enumeration::Enumeration as _;
 use super::{all, time};

@@ -4,7 +4,7 @@ use crate::app::model::Export;
 use crate::grpc::proto;
 use proto::file_chunk::Part;
 
-/// Most bytes of one piece: a small part of the size of a message that clients take.
+/// Maximum size of one piece, bytes: far below the message size that clients accept.
 const PIECE_BYTES: usize = 256 << 10;
 
 /// The messages of a file.

@@ -1,4 +1,4 @@
-//! Jobs and how far they are.
+//! Conversion of jobs and their progress.
 
 use super::enumeration::Enumeration as _;
 use super::{all, time};

@@ -34,7 +34,7 @@ pub fn resource<T: FromStr<Err = IdError>>(text: &str) -> Result<T, AppError> {
     text.parse().map_err(|error: IdError| AppError::new(ErrorKind::NotFound, "not_found", error.to_string()))
 }
 
-/// An id inside a request.
+/// Id inside a request.
 pub fn reference<T: FromStr<Err = IdError>>(pointer: &str, text: &str) -> Result<T, AppError> {
     text.parse().map_err(|error: IdError| AppError::field(pointer, "invalid_value", error.to_string()))
 }
@@ -49,7 +49,7 @@ pub fn required<T>(pointer: &str, value: Option<T>) -> Result<T, AppError> {
     value.ok_or_else(|| AppError::field(pointer, "missing", "this field is required"))
 }
 
-/// A number that JSON could hold.
+/// A number that JSON could represent.
 pub fn finite(pointer: &str, value: f64) -> Result<f64, AppError> {
     if value.is_finite() {
         return Ok(value);
@@ -83,12 +83,12 @@ pub fn rows(pointer: &str, rows: Vec<proto::Row>) -> Result<Vec<Vec<f64>>, AppEr
     rows.into_iter().enumerate().map(row).collect()
 }
 
-/// An empty text is an absent one.
+/// Treats an empty text as absent.
 pub fn text(value: String) -> Option<String> {
     if value.is_empty() { None } else { Some(value) }
 }
 
-/// An empty list is an absent one.
+/// Treats an empty list as absent.
 pub fn list<T>(values: Vec<T>) -> Option<Vec<T>> {
     if values.is_empty() { None } else { Some(values) }
 }
@@ -98,7 +98,7 @@ pub fn page(page_size: u32, page_token: String) -> PageQuery {
     PageQuery { page_size: if page_size == 0 { None } else { Some(page_size) }, page_token: text(page_token) }
 }
 
-/// The items and the token of a page.
+/// Items and next token of a page.
 pub fn items<T, M: From<T>>(page: Page<T>) -> (Vec<M>, String) {
     let Page { items, next_page_token } = page;
     (all(items), next_page_token)
@@ -139,7 +139,7 @@ impl From<FieldError> for proto::FieldError {
     }
 }
 
-/// The same values as messages.
+/// Converts every value into its message.
 pub fn all<T, M: From<T>>(values: Vec<T>) -> Vec<M> {
     values.into_iter().map(M::from).collect()
 }

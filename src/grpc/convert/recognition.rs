@@ -1,4 +1,4 @@
-//! Recognition.
+//! Conversion of recognition requests and results.
 
 use super::enumeration::{Enumeration as _, or_default};
 use super::{all, finite_or_none, references, required};

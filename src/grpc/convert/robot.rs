@@ -1,4 +1,4 @@
-//! Robots.
+//! Conversion of robots.
 
 use super::enumeration::Enumeration as _;
 use super::{all, finite, list, time, triple};

@@ -1,4 +1,4 @@
-//! Runs.
+//! Conversion of runs.
 
 use super::enumeration::Enumeration as _;
 use super::{all, time};

@@ -1,4 +1,4 @@
-//! Trajectories.
+//! Conversion of trajectories.
 
 use super::enumeration::Enumeration as _;
 use super::{all, time};
@@ -6,7 +6,7 @@ use crate::app::model::{TrajectoryPoint, TrajectoryView};
 use crate::framework::trajectory::Tightest;
 use crate::grpc::proto;
 
-/// The head and the points.
+/// Splits a trajectory into its head and its points.
 pub fn split(view: TrajectoryView) -> (proto::Trajectory, Vec<TrajectoryPoint>) {
     let TrajectoryView {
         id,

@@ -1,4 +1,4 @@
-//! What a job does: the request, in and out.
+//! Conversion of a job's work: requests in both directions.
 
 use super::enumeration::{Enumeration as _, or_default};
 use super::{constraint, experiment, finite, finite_or_none, list, method, reference, references, required, text};

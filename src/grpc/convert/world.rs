@@ -1,4 +1,4 @@
-//! Worlds.
+//! Conversion of worlds.
 
 use super::enumeration::{Enumeration as _, or_default};
 use super::{all, finite, required, time, triple};

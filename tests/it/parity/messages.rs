@@ -39,7 +39,7 @@ fn oneof(field: &FieldDescriptor) -> Option<OneofDescriptor> {
     field.containing_oneof().filter(|oneof| !oneof.is_synthetic())
 }
 
-/// What a message says.
+/// Fields of a message, as a shape to compare.
 pub fn shape(message: &MessageDescriptor) -> Shape {
     match message.full_name() {
         "google.protobuf.Timestamp" => return Shape::Time,

@@ -242,7 +242,7 @@ async fn the_method_auto_stands_for_and_the_cost_in_words_are_told_alike() {
     let validate = proto::ValidateJobRequest { work: Some(work), robot_trial_s: Some(30.0) };
     let told = grpc.jobs.validate_job(validate.clone()).await.unwrap().into_inner();
     let mut told = document("JobValidation", &told);
-    // Measured anew by each dry run.
+    // Measured again by each dry run.
     for measured in ["simulated_s", "basis"] {
         told["estimate"][measured] = dry.json["estimate"][measured].clone();
     }

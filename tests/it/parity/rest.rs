@@ -71,7 +71,7 @@ impl Rest {
         let content = self.resolved(answer)["content"].as_object()?;
         let (media_type, content) = content.iter().next()?;
         match media_type.as_str() {
-            // A document that is not JSON is text, whatever stands in it.
+            // A document that is not JSON counts as text.
             "application/xml" => Some(Shape::Text),
             _ => Some(self.shape(&content["schema"])),
         }

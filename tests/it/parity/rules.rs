@@ -57,7 +57,7 @@ pub const FIELDS: &[&str] = &["RecognizeRequest.observed"];
 /// Oneofs of which REST has the members as alternatives of one field.
 pub const ALTERNATIVES: &[&str] = &["ExecutionSpec.method_choice"];
 
-/// The field that tells the variants of a oneof apart in JSON; `kind` for others.
+/// The field that selects the variant of a oneof in JSON; `kind` for others.
 pub const TAGS: &[(&str, &str)] = &[
     ("Geometry", "shape"),
     ("HandlingSpec", "strategy"),

@@ -1,8 +1,8 @@
-//! What a description says about a value, in terms that OpenAPI and protocol buffers share, and how two of them differ.
+//! Shape of a value in terms that OpenAPI and protocol buffers share, and the differences between two shapes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a value looks like.
+/// Shape of a value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     Text,

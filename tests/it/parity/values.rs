@@ -44,7 +44,7 @@ pub fn differences(place: &str, rest: &Value, grpc: &Value, found: &mut Vec<Stri
     }
 }
 
-/// Whether a message says with this value that there is none.
+/// Whether this value of a message means that there is none.
 fn is_absent(key: &str, value: &Value) -> bool {
     let empty = match value {
         Value::Null => true,

@@ -1,17 +1,19 @@
-//! SEARCH-IET: an accumulating effect with nothing known, by search theory.
+//! SEARCH-IET: for accumulating effects without prior knowledge, by the theory of optimal search.
 //!
-//! What has not been affected cannot lie inside the capture ball of a past trial: each trial thins the survival
-//! `surv(x)` of the poses around it, gains raise the expectation of the poses near them, and the next trial is the
-//! unused pose with the largest expected gain: `sum_x B_z surv num/den / sum_x B_z`.
+//! An unaffected place cannot lie inside the capture ball of a past trial: each trial lowers the survival `surv(x)` of
+//! the poses around it, gains raise the expectation of nearby poses, and the next trial is the unused pose with the
+//! largest expected gain: `sum_x B_z surv num/den / sum_x B_z`.
 //!
 //! Symbols: Sobol poses x, z; distance |z - x| in degrees; ball `B_z(x) = exp(-(|z-x|/r)^2)`; `k = exp(-d^2 / 2 l^2)`;
-//! num and den begin at `(1 + 1/3 - u^2) / 4` and 1, u^2 the mean square of the joints' places in their ranges (-1..1),
-//! because a robot is mounted so that its work lies amid its ranges. Where the cells are seen, the expected gain is
-//! multiplied by the chance that a pose leads to an unpainted cell ([`super::surface::cell_predictor`]).
+//! num and den start at `(1 + 1/3 - u^2) / 4` and 1, where u^2 is the mean square of the joints' positions within their
+//! ranges (-1..1), because a robot is mounted so that its work lies in the middle of its ranges. If cells are observed,
+//! the expected gain is multiplied by the chance that a pose leads to an unpainted cell
+//! ([`super::surface::cell_predictor`]).
 //!
-//! Tried on seeds 1 to 80 (evaluations to 15 of 16 squares): balls with a flat top, exponent 4 (85; this one 77), the
-//! preference for the middle (68 with it), l and r of 20 and 9 degrees for 25 and 10 (58 with it). Of no use were one
-//! scale a joint, more or fewer misses before the balls shrink, and an unknown serial arm inferred by Markov chains.
+//! Alternatives tried on seeds 1 to 80 (evaluations to 15 of 16 squares; this one takes 77): balls with a flat top,
+//! exponent 4 (85); a preference for the middle (68 with it); l and r of 20 and 9 degrees instead of 25 and 10 (58 with
+//! it). One scale per joint, more or fewer misses before the balls shrink, and an unknown serial arm inferred by Markov
+//! chains did not help.
 //!
 //! Source: L. Stone, Theory of Optimal Search, Academic Press 1975.
 
@@ -54,7 +56,7 @@ pub struct SearchIet {
     radius: f64,
     misses: u32,
     verdicts: Vec<(usize, bool, bool)>,
-    /// Where poses lead, where cells are seen.
+    /// Predictor of the cells that poses lead to; `None` if cells are not observed.
     predictor: Option<CellPredictor>,
     /// For each pose, the poses in its ball, with B.
     near: Vec<Vec<(u32, f64)>>,

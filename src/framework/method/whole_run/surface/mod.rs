@@ -1,4 +1,4 @@
-//! What the methods for an accumulating effect (a share of a surface) have in common.
+//! Common parts of the methods for accumulating effects (a share of a surface).
 
 pub(super) mod cell_predictor;
 pub(super) mod cover;
