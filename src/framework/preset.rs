@@ -18,21 +18,21 @@ use serde::Deserialize;
 /// A named problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Preset {
-    /// Name without folder and ending.
+    /// File name without folder and extension.
     pub name: String,
-    /// One line for people.
+    /// Description in one line.
     pub description: String,
-    /// Everything an execution needs.
+    /// Problem to execute.
     pub problem: Problem,
-    /// Other methods with the parameters that belong to this problem.
+    /// Further methods, with parameters suited to this problem.
     pub methods: Vec<MethodSpec>,
-    /// The discrepancy a run should reach, features' unit.
+    /// Discrepancy that a run should reach, features' unit; `None` if there is no such threshold.
     pub threshold: Option<f64>,
 }
 
 impl Preset {
-    /// Searches by the method of that name: with the preset's own parameters where it has some, else with the method's
-    /// defaults. Returns whether there is such a method.
+    /// Selects the method of that name, with the preset's own parameters for it if it has any, or else with the
+    /// method's defaults. Returns whether there is such a method.
     #[must_use]
     pub fn select_method(&mut self, name: &str) -> bool {
         let method = &mut self.problem.execution.method;
@@ -46,27 +46,27 @@ impl Preset {
     }
 }
 
-/// Why a text is not a preset.
+/// Reasons why a text is not a valid preset.
 #[derive(Debug, thiserror::Error)]
 pub enum PresetError {
     /// A file that cannot be read.
-    #[error("{file:?}, which preset {preset:?} names, cannot be read: {reason}")]
+    #[error("{file:?}, named in preset {preset:?}, cannot be read: {reason}")]
     File {
-        /// The preset.
+        /// Name of the preset.
         preset: String,
-        /// The file it names.
+        /// Path of the file as named in the preset.
         file: String,
         /// Why, in the resolver's words.
         reason: String,
     },
-    /// TOML that does not fit; the message shows line and column.
+    /// The TOML does not have the expected form; the message shows line and column.
     #[error("{file} is not a valid {what}: {source}")]
     Toml {
-        /// The file.
+        /// Path of the file.
         file: String,
         /// `preset` or `world`.
         what: &'static str,
-        /// Line, column and what is wrong there.
+        /// Line, column and description of the defect.
         #[source]
         source: Box<toml::de::Error>,
     },
@@ -86,7 +86,7 @@ struct RawPreset {
     threshold: Option<f64>,
 }
 
-/// [`RobotSpec`] and the URDF's file.
+/// Robot of a preset: [`RobotSpec`] and the path of the URDF.
 #[derive(Deserialize)]
 struct RawRobot {
     urdf: String,
@@ -94,7 +94,7 @@ struct RawRobot {
     spec: RobotSpec,
 }
 
-/// Reads a preset; `resolve` gives the text of a file by its path relative to the preset.
+/// Parses a preset; `resolve` returns the text of a file, given its path relative to the preset.
 ///
 /// # Errors
 /// [`PresetError`] with file, line and column.
@@ -129,7 +129,7 @@ pub fn parse(
     })
 }
 
-/// Reads a world file.
+/// Parses a world file.
 ///
 /// # Errors
 /// [`PresetError::Toml`] with line and column.

@@ -1,11 +1,11 @@
-//! How near our tables come to the authors' raw logs: cell by cell within bands, and all means together.
+//! Agreement of our tables with the authors' raw logs: cell by cell within bands, and all means together.
 
 use super::paper::PaperCell;
 use crate::framework::experiment::{CellResult, Summary};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 impl PaperCell {
-    /// What keeps `result` from agreeing with the raw numbers; empty where it does.
+    /// Deviations of `result` from the raw numbers beyond the tolerance; empty if it agrees.
     #[must_use]
     pub fn disagreements(&self, result: &CellResult) -> Vec<Disagreement> {
         let sd_share = if self.action == "wax" { 0.25 } else { 0.35 };
@@ -34,34 +34,35 @@ impl PaperCell {
 /// A number outside its band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disagreement {
-    /// What was compared.
+    /// Quantity compared.
     pub quantity: &'static str,
-    /// Our number; none where no run counts.
+    /// Our number; `None` if no run counts.
     pub found: Option<f64>,
-    /// The raw (painted: published) number.
+    /// The raw number (for the painted share, the published one).
     pub expected: f64,
-    /// Largest difference allowed.
+    /// Largest allowed difference.
     pub allowed: f64,
 }
 
-/// All means of evaluations and discrepancy together, each difference in units of its own uncertainty.
+/// Joint test over all means of evaluations and discrepancy, each difference in units of its own uncertainty.
 ///
-/// Symbols: our mean o of R runs with sd s, the raw mean r of N runs; `z = (o - r) / sqrt(t^2 / N + s^2 / R)`, t the raw
-/// sd where it is known, else s. If only chance separates ours from theirs, sum z^2 over k means is distributed about as
-/// chi-squared of k degrees of freedom (the two means of a cell are not quite independent).
+/// Symbols: our mean o of R runs with sd s, the raw mean r of N runs; `z = (o - r) / sqrt(t^2 / N + s^2 / R)`, where t
+/// is the raw sd if it is known, else s. If only chance separates ours from theirs, the sum of z^2 over k means is
+/// distributed approximately as chi-squared with k degrees of freedom (the two means of a cell are not quite
+/// independent).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Agreement {
-    /// k.
+    /// Number of means k.
     pub means: usize,
     /// Sum of z^2.
     pub sum_of_squares: f64,
-    /// Probability that chance alone makes the sum as large.
+    /// Probability of a sum this large by chance alone.
     pub p_value: f64,
-    /// The largest difference: index of its cell, quantity, z.
+    /// Largest difference: index of its cell, quantity, z.
     pub largest: (usize, &'static str, f64),
 }
 
-/// The agreement of `results` with the raw logs behind `cells`, one result a cell; none where no cell has two runs.
+/// Tests `results` against the raw logs behind `cells`, one result per cell; `None` if no cell has two runs.
 #[must_use]
 pub fn agreement(cells: &[PaperCell], results: &[CellResult]) -> Option<Agreement> {
     let standardised = |ours: Option<Summary>, mean: f64, sd: Option<f64>, runs: u32| {
@@ -88,7 +89,8 @@ mod tests {
     use super::*;
     use crate::reproduce::paper::PaperTables;
 
-    /// A result with that many sds (raw where known, else 1) beyond the raw means; two runs of the raw sd's spread.
+    /// A result that exceeds the raw means by that many sds (raw if known, else 1), with two runs spread like the raw
+    /// sd.
     fn beyond(cell: &PaperCell, sds: f64) -> CellResult {
         let of = |mean: f64, sd: Option<f64>| {
             let sd = sd.unwrap_or(1.0);

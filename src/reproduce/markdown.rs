@@ -6,8 +6,8 @@ use crate::framework::experiment::export::{markdown_table, rounded, spread};
 use crate::framework::experiment::{CellResult, Summary};
 use std::fmt::Write as _;
 
-/// The paper's tables as Markdown: ours beside published and raw, the ratio to raw, and whether it agrees; below, all
-/// means together.
+/// The paper's tables as Markdown: ours next to published and raw, the ratio to raw, and whether it agrees; below them
+/// the joint test over all means.
 ///
 /// # Panics
 /// If there are not as many cells as results.

@@ -1,8 +1,8 @@
-//! The paper's tables as data: 28 cells with what they ran, what was published and what the raw logs hold.
+//! The paper's tables as data: 28 cells with their settings as run, the published numbers and those of the raw logs.
 //!
 //! Source: R. Fernandez-Fernandez, J. G. Victores, D. Estevez, C. Balaguer, "Real evaluations tractability using
-//! continuous goal-directed actions in smart city applications"; raw means and spreads
-//! from the authors' published logs.
+//! continuous goal-directed actions in smart city applications"; raw means and spreads from the authors' published
+//! logs.
 
 use crate::framework::constraint::{ConstraintSpec, GeometrySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side};
 use crate::framework::experiment::{CellSpec, ExperimentSpec, InvalidRule, merge};
@@ -18,38 +18,38 @@ const TABLES: &str = include_str!("../../examples/experiments/paper-tables.toml"
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PaperCell {
-    /// Table 1 to 6.
+    /// Number of the table, 1 to 6.
     pub table: u8,
     /// `wax` or `paint`.
     pub action: String,
-    /// Method, box or velocity, as the paper names it.
+    /// Method, box or velocity, in the paper's words.
     pub setting: String,
-    /// What was really run, in words.
+    /// Description of what was really run.
     pub settings_as_run: String,
-    /// The problem it starts from.
+    /// Name of the preset it starts from.
     pub preset: String,
-    /// Which of the preset's methods searches; its first where absent.
+    /// Which of the preset's methods to use; the first if absent.
     #[serde(default)]
     pub method: Option<String>,
-    /// Names of the patches over it, in order.
+    /// Names of the patches to apply, in order.
     #[serde(default)]
     pub patches: Vec<String>,
-    /// The tables' numbers.
+    /// Numbers printed in the paper.
     pub published: PaperNumbers,
-    /// The numbers behind them.
+    /// Numbers from the raw logs.
     pub raw: PaperNumbers,
-    /// Runs behind the raw numbers.
+    /// Number of runs behind the raw numbers.
     pub runs: u32,
-    /// What a run without feasible last goal counted for.
+    /// Treatment of runs without a feasible last goal.
     #[serde(default)]
     pub invalid: InvalidRule,
-    /// How near a correct implementation comes.
+    /// Bounds within which a correct implementation agrees.
     #[serde(default)]
     pub tolerance: Tolerance,
-    /// Corners of the box the tool had to stay in.
+    /// Corners of the box that the tool had to stay in; `None` without a box.
     #[serde(default)]
     pub box_m: Option<BoxCorners>,
-    /// Limit V of the distance within the population, degrees summed over joints.
+    /// Limit V of the distance within the population, degrees summed over joints; `None` without a limit.
     #[serde(default)]
     pub velocity_deg: Option<f64>,
 }
@@ -58,40 +58,40 @@ pub struct PaperCell {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxCorners {
-    /// Least x, y, z.
+    /// Smallest x, y, z.
     pub lower: [f64; 3],
-    /// Greatest x, y, z.
+    /// Largest x, y, z.
     pub upper: [f64; 3],
 }
 
-/// Means and spreads of one source.
+/// Means and standard deviations from one source.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PaperNumbers {
     /// Mean evaluations after the last goal.
     pub evaluations: f64,
-    /// Their sd.
+    /// Standard deviation of the evaluations.
     #[serde(default)]
     pub evaluations_sd: Option<f64>,
     /// Mean discrepancy after the last goal, mm or percentage points.
     pub discrepancy: f64,
-    /// Its sd.
+    /// Standard deviation of the discrepancy.
     #[serde(default)]
     pub discrepancy_sd: Option<f64>,
-    /// Mean share painted, %.
+    /// Mean painted share, %.
     #[serde(default)]
     pub painted_percent: Option<f64>,
 }
 
-/// Shares of the raw numbers within which the means of 1000 runs lie.
+/// Relative bounds around the raw numbers within which the means of 1000 runs lie.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Tolerance {
-    /// Of the evaluations.
+    /// Relative bound for evaluations.
     pub evaluations: f64,
-    /// Of the discrepancy.
+    /// Relative bound for the discrepancy.
     pub discrepancy: f64,
-    /// Of the percentage painted, points.
+    /// Bound for the painted share, percentage points.
     pub painted_points: f64,
 }
 
@@ -101,11 +101,11 @@ impl Default for Tolerance {
     }
 }
 
-/// The paper's tables: cells and what they share.
+/// The paper's tables: cells and the data they share.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PaperTables {
-    /// What the boxes hold.
+    /// Point that the boxes constrain.
     constrained_point: PointSpec,
     /// Merge patches by name.
     patches: BTreeMap<String, Value>,
@@ -113,32 +113,32 @@ pub struct PaperTables {
     pub cells: Vec<PaperCell>,
 }
 
-/// Why the tables cannot be run.
+/// Reasons why the tables cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperError {
-    /// The file is no such tables.
+    /// The file does not have the expected form.
     #[error("the paper's tables do not fit: {0}")]
     Toml(#[from] toml::de::Error),
-    /// A constraint has no JSON.
+    /// A constraint cannot be serialized.
     #[error("the paper's tables, setting {setting:?}: {source}")]
     Json {
-        /// The cell's setting.
+        /// Setting of the cell.
         setting: String,
-        /// What did not fit.
+        /// Underlying error.
         source: serde_json::Error,
     },
-    /// A cell names a patch that is not there.
+    /// A cell names a patch that does not exist.
     #[error("the paper's tables, setting {setting:?}: there is no patch {patch:?}")]
     UnknownPatch {
-        /// The cell's setting.
+        /// Setting of the cell.
         setting: String,
-        /// The name.
+        /// Name of the patch.
         patch: String,
     },
 }
 
 impl PaperTables {
-    /// The shipped tables.
+    /// Parses the shipped tables.
     ///
     /// # Errors
     /// If the shipped file is broken, which a test rules out.
@@ -146,7 +146,7 @@ impl PaperTables {
         Ok(toml::from_str(TABLES)?)
     }
 
-    /// Only the cells of `table`; all where none is named.
+    /// Keeps only the cells of `table`; all if `None`.
     #[must_use]
     pub fn only(mut self, table: Option<u8>) -> Self {
         self.cells.retain(|cell| table.is_none_or(|table| cell.table == table));
@@ -208,7 +208,7 @@ mod tests {
         assert_eq!(names.len(), 28);
     }
 
-    /// The published means are the raw ones rounded, except for the cell that was copied from another.
+    /// Published means are the raw ones rounded, except for the cell that was copied from another.
     #[test]
     fn one_published_cell_is_a_copy() {
         let cells = PaperTables::shipped().unwrap().cells;

@@ -1,4 +1,4 @@
-//! Tables as text: CSV for machines, Markdown for people. Numbers in CSV are written to the last bit.
+//! Tables as text: CSV for machines, Markdown for people. CSV numbers have full precision.
 
 use super::{CellResult, PairedComparison, Summary};
 use std::fmt::Write;
@@ -34,7 +34,7 @@ fn lines(rows: impl Iterator<Item = Vec<String>>) -> String {
     text
 }
 
-/// The table in the columns of the paper's.
+/// The table with the columns of [`PAPER_COLUMNS`].
 #[must_use]
 pub fn paper_csv(results: &[CellResult]) -> String {
     let header = PAPER_COLUMNS.map(str::to_owned).to_vec();
@@ -124,7 +124,7 @@ fn interval(summary: Option<Summary>, decimals: usize) -> String {
     format!("{low:.decimals$} to {high:.decimals$}")
 }
 
-/// Any experiment as Markdown: mean and sd, 95 % interval of the mean, median.
+/// Markdown for any experiment: mean and sd, 95 % interval of the mean, median.
 #[must_use]
 pub fn markdown(results: &[CellResult]) -> String {
     const HEADER: [&str; 12] = [

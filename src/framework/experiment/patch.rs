@@ -1,14 +1,14 @@
-//! Overrides: what a cell changes in its preset, as a JSON merge patch (RFC 7396) over the problem.
+//! Overrides: a cell's changes to its preset, as a JSON merge patch (RFC 7396) over the problem.
 //!
-//! One rule is added for choices that carry a tag (`name`, `kind`, `strategy`, `shape`, `at`): a patch that picks another
-//! one replaces the whole choice, so the parameters of one method never leak into the next.
+//! One rule is added for tagged choices (`name`, `kind`, `strategy`, `shape`, `at`): a patch that selects another
+//! variant replaces the whole choice, so that parameters of one method never leak into another.
 
 use serde_json::{Map, Value};
 
-/// Keys that say which variant an object is.
+/// Keys that select the variant of an object.
 const TAGS: [&str; 5] = ["name", "kind", "strategy", "shape", "at"];
 
-/// `target` after `patch`: objects merge key by key, null removes a key, anything else replaces.
+/// Applies `patch` to `target`: objects merge key by key, null removes a key, anything else replaces.
 pub fn merge(target: &mut Value, patch: &Value) {
     let Value::Object(changes) = patch else {
         *target = patch.clone();

@@ -65,7 +65,7 @@ pub fn finite_or_none(pointer: &str, value: Option<f64>) -> Result<Option<f64>, 
 /// Three coordinates.
 pub fn triple(pointer: &str, values: &[f64]) -> Result<[f64; 3], AppError> {
     let found: [f64; 3] = values.try_into().map_err(|_| {
-        AppError::field(pointer, "invalid_length", format!("{} values where 3 are needed: x, y, z", values.len()))
+        AppError::field(pointer, "invalid_length", format!("{} values, but 3 are needed: x, y, z", values.len()))
     })?;
     values.iter().try_for_each(|value| finite(pointer, *value).map(drop))?;
     Ok(found)

@@ -1,37 +1,37 @@
-//! Figures 4, 6, 8, 9, 10: mean evaluations until each goal is done; beside the last goal the spread of the runs and
-//! the raw logs' mean.
+//! Figures 4, 6, 8, 9, 10: mean evaluations until each goal is done; next to the last goal, the spread of the runs and
+//! the mean of the raw logs.
 
 use super::FigureError;
 use super::canvas::{Area, Axis, Drawn, HEADER, LEGEND, Sample, Scale, legend, marker, page, panel, pixel, plain_line};
 use super::style::{WIDTH, colour};
 use crate::framework::experiment::Summary;
 
-/// One curve.
+/// One curve of a panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accumulation {
     /// Method or setting.
     pub name: String,
     /// Cumulative evaluations after goal 1..n.
     pub cumulative: Vec<Summary>,
-    /// The raw logs' mean after the last goal.
+    /// Mean of the raw logs after the last goal; `None` if unknown.
     pub raw: Option<f64>,
 }
 
 /// Curves that share axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AccumulationPanel {
-    /// What they have in common.
+    /// Title of the panel.
     pub title: String,
-    /// The curves.
+    /// Curves of the panel.
     pub curves: Vec<Accumulation>,
 }
 
 /// Height of one panel, px.
 const PANEL_PX: u32 = 860;
-/// Of the goals' axis, how much wider it is for the spreads beside the last goal.
+/// Extra width of the goal axis for the spreads next to the last goal, relative to its length.
 const BESIDE: f64 = 0.3;
 
-/// The figure as SVG, panels one below the other.
+/// Draws the figure as SVG, one panel below the other.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.
@@ -67,7 +67,7 @@ fn draw<'b>(area: &Area<'b>, content: &AccumulationPanel) -> Drawn<'b> {
     let chart = panel(area, &content.title, &x, &y)?;
     let mut entries = Vec::new();
     for (index, curve) in curves.iter().enumerate() {
-        // the first are drawn below and larger, so that curves that coincide can be told apart
+        // Earlier curves are drawn below later ones and larger, so that coinciding curves can be distinguished.
         let size = 10 + 2 * i32::try_from(curves.len() - 1 - index).unwrap_or(0);
         let points: Vec<_> = curve.cumulative.iter().enumerate().map(|(g, s)| ((g + 1) as f64, s.mean)).collect();
         plain_line(&chart, &points, colour(index), size.unsigned_abs() / 2)?;

@@ -1,4 +1,4 @@
-//! The parts figures are made of: a page, a panel with labelled axes, markers, lines with their own marker, a legend.
+//! Building blocks of figures: page, panel with labelled axes, markers, lines with markers, legend.
 
 use super::FigureError;
 use super::style::{GRID, INK, colour, heading, text};
@@ -15,7 +15,7 @@ pub(super) type Area<'b> = DrawingArea<SVGBackend<'b>, Shift>;
 pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 pub(super) type Drawn<'b, T = ()> = Result<T, DrawingAreaErrorKind<<SVGBackend<'b> as DrawingBackend>::ErrorType>>;
 
-/// One axis: what it shows with its unit, from where to where, how many ticks about, decimals of their labels.
+/// One axis: label with unit, range, approximate number of ticks, decimals of the tick labels.
 #[derive(Debug, Clone)]
 pub(super) struct Axis {
     pub label: String,
@@ -25,13 +25,13 @@ pub(super) struct Axis {
     pub scale: Scale,
 }
 
-/// How values lie on an axis.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Scale {
     Linear,
     /// Linear; ticks beyond this value have no label.
     UpTo(f64),
-    /// The chart holds decimal logarithms; whole decades are labelled.
+    /// The chart contains decimal logarithms; whole decades are labelled.
     Log10,
 }
 
@@ -46,7 +46,7 @@ impl Axis {
     }
 }
 
-/// An SVG of `size` px with `title` for readers and screen readers; `draw` fills the page below the title.
+/// Creates an SVG of `size` px whose `title` is visible and accessible; `draw` fills the page below the title.
 pub(super) fn page(
     title: &str,
     size: (u32, u32),
@@ -75,17 +75,17 @@ fn escape(title: &str) -> String {
 /// Height of the title, px.
 pub(super) const HEADER: u32 = 76;
 
-/// Room around a panel for its tick labels and axis names, px.
+/// Margin around a panel for its tick labels and axis names, px.
 pub(super) const LEFT: u32 = 160;
 pub(super) const BOTTOM: u32 = 112;
 pub(super) const TOP: u32 = 60;
-/// Of `LEFT` and `BOTTOM`, what stays blank at the page's edge.
+/// Part of `LEFT` and `BOTTOM` that stays blank at the page's edge.
 const EDGE: u32 = 16;
-/// Where a legend at a panel's upper left begins, px.
+/// Origin of a legend in a panel's upper left corner, px.
 pub(super) const LEGEND: (i32, i32) = (192, 96);
 pub(super) const RIGHT: u32 = 30;
 
-/// Axes with a grid on `area`.
+/// Draws axes with a grid on `area`.
 pub(super) fn panel<'a, 'b>(area: &'a Area<'b>, title: &str, x: &Axis, y: &Axis) -> Drawn<'b, Chart<'a, 'b>> {
     let mut chart = ChartBuilder::on(area)
         .margin_top(TOP)
@@ -114,7 +114,7 @@ pub(super) fn panel<'a, 'b>(area: &'a Area<'b>, title: &str, x: &Axis, y: &Axis)
     Ok(chart)
 }
 
-/// `value` with thin groups of three and a true minus.
+/// Formats `value` with thin spaces between groups of three digits and a true minus sign.
 fn number(value: f64, decimals: usize) -> String {
     let plain = format!("{:.decimals$}", value.abs());
     let (whole, fraction) = plain.split_once('.').map_or((plain.as_str(), None), |(w, f)| (w, Some(f)));
@@ -133,7 +133,7 @@ pub(super) fn pixels(value: u32) -> i32 {
     i32::try_from(value).unwrap_or(i32::MAX)
 }
 
-/// Corners of the marker of series `index` around the origin, px; none for the circle.
+/// Corners of the marker of series `index` around the origin, px; `None` for the circle.
 fn corners(index: usize, size: i32) -> Option<Vec<(i32, i32)>> {
     let (s, t) = (size, size * 9 / 10);
     Some(match index % 7 {
@@ -147,7 +147,7 @@ fn corners(index: usize, size: i32) -> Option<Vec<(i32, i32)>> {
     })
 }
 
-/// Draws the marker of series `index` at a pixel; hollow ones are outlines.
+/// Draws the marker of series `index` at a pixel; hollow markers are outlines.
 pub(super) fn marker<'b>(area: &Area<'b>, index: usize, at: (i32, i32), size: i32, hollow: bool) -> Drawn<'b> {
     let ink = colour(index);
     match (corners(index, size), hollow) {
@@ -165,41 +165,41 @@ pub(super) fn marker<'b>(area: &Area<'b>, index: usize, at: (i32, i32), size: i3
     }
 }
 
-/// A line of series `index` through `points` with its marker at each.
+/// Draws a line of series `index` through `points`, with its marker at each.
 pub(super) fn line<'b>(area: &Area<'b>, chart: &Chart<'_, 'b>, index: usize, points: &[(f64, f64)]) -> Drawn<'b> {
     plain_line(chart, points, colour(index), 5)?;
     points.iter().try_for_each(|point| marker(area, index, pixel(area, chart, *point), 10, false))
 }
 
-/// A line without markers.
+/// Draws a line without markers.
 pub(super) fn plain_line<'b>(chart: &Chart<'_, 'b>, points: &[(f64, f64)], ink: RGBColor, width: u32) -> Drawn<'b> {
     chart.plotting_area().draw(&PathElement::new(points.to_vec(), ink.stroke_width(width)))
 }
 
-/// A filled square.
+/// Draws a filled square.
 pub(super) fn square<'b>(area: &Area<'b>, (x, y): (i32, i32), half: i32, ink: RGBColor) -> Drawn<'b> {
     area.draw(&Rectangle::new([(x - half, y - half), (x + half, y + half)], ink.filled()))
 }
 
-/// A ring with a white inside.
+/// Draws a ring with a white interior.
 pub(super) fn ring<'b>(area: &Area<'b>, at: (i32, i32), radius: i32, ink: RGBColor) -> Drawn<'b> {
     area.draw(&Circle::new(at, radius, WHITE.mix(0.85).filled()))?;
     area.draw(&Circle::new(at, radius, ink.stroke_width(4)))
 }
 
-/// A short text around a point.
+/// Draws a short text centred on a point.
 pub(super) fn label<'b>(area: &Area<'b>, at: (i32, i32), words: &str) -> Drawn<'b> {
     area.draw(&Text::new(words.to_owned(), at, heading(26).pos(Pos::new(HPos::Center, VPos::Center))))
 }
 
-/// Where a point of the chart lies on `area`, px.
+/// Pixel on `area` of a point of the chart.
 pub(super) fn pixel(area: &Area<'_>, chart: &Chart<'_, '_>, point: (f64, f64)) -> (i32, i32) {
     let on_page = chart.backend_coord(&point);
     let (x, y) = area.get_base_pixel();
     (on_page.0 - x, on_page.1 - y)
 }
 
-/// What a legend's entry stands for.
+/// Symbol of a legend entry.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Sample {
     /// The line and marker of a series.
@@ -218,7 +218,7 @@ pub(super) enum Sample {
     Spread,
 }
 
-/// Entries one below the other, the first at `at` (px on `area`).
+/// Draws entries one below the other, the first at `at` (px on `area`).
 pub(super) fn legend<'b>(area: &Area<'b>, at: (i32, i32), entries: &[(Sample, String)]) -> Drawn<'b> {
     let far = entries.iter().map(|(_, name)| entry_width(name)).max().unwrap_or(0);
     let low = at.1 + 44 * i32::try_from(entries.len()).unwrap_or(0) - 20;
@@ -232,7 +232,7 @@ pub(super) fn legend<'b>(area: &Area<'b>, at: (i32, i32), entries: &[(Sample, St
 /// Height of a [`legend_row`], px.
 pub(super) const STRIP: u32 = 56;
 
-/// Entries side by side on a strip of their own.
+/// Draws entries side by side on a strip of their own.
 pub(super) fn legend_row<'b>(area: &Area<'b>, entries: &[(Sample, String)]) -> Drawn<'b> {
     let mut x = pixels(LEFT);
     for (sample, name) in entries {
@@ -242,7 +242,7 @@ pub(super) fn legend_row<'b>(area: &Area<'b>, entries: &[(Sample, String)]) -> D
     Ok(())
 }
 
-/// About how wide an entry is, px: the library cannot measure text.
+/// Approximate width of an entry, px; the library cannot measure text.
 fn entry_width(name: &str) -> i32 {
     i32::try_from(78 + 16 * name.chars().count()).unwrap_or(0)
 }
@@ -274,7 +274,7 @@ fn entry<'b>(area: &Area<'b>, (x, y): (i32, i32), sample: Sample, name: &str) ->
     area.draw(&Text::new(name.to_owned(), (x + 78, y), style))
 }
 
-/// A range a little wider than `values`; [0, 1] where there is none.
+/// A range slightly wider than `values`; [0, 1] if there are none.
 pub(super) fn range_of(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
     for value in values {

@@ -1,4 +1,4 @@
-//! Figure 7: the wall after each goal, cell by cell, and reference against achieved.
+//! Figure 7: the wall after each goal, cell by cell, and the reference curve against the achieved one.
 
 use super::FigureError;
 use super::canvas::{
@@ -9,22 +9,22 @@ use plotters::element::{Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, RGBColor, WHITE};
 
-/// What a run did to a grid of cells.
+/// Progress of a run on a grid of cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coverage {
-    /// Rows of the grid, the lowest first.
+    /// Number of rows of the grid, lowest first.
     pub rows: usize,
-    /// Columns of the grid, the robot's rightmost first.
+    /// Number of columns of the grid, the robot's rightmost first.
     pub columns: usize,
-    /// After each goal, which cells are done, row-major.
+    /// For each goal, which cells are done, row-major.
     pub done: Vec<Vec<bool>>,
-    /// The goals, %.
+    /// Painted share of the goals, %.
     pub reference: Vec<f64>,
-    /// What was reached, %.
+    /// Painted share reached, %.
     pub achieved: Vec<f64>,
 }
 
-/// Walls in a row of the figure.
+/// Number of walls per row of the figure.
 const PER_ROW: usize = 6;
 /// Height of a row of walls, px.
 const WALL_PX: u32 = 300;
@@ -33,12 +33,12 @@ const CURVE_PX: u32 = 560;
 /// A cell done at an earlier goal.
 const EARLIER: RGBColor = RGBColor(150, 199, 226);
 
-/// The figure as SVG.
+/// Draws the figure as SVG.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.
 pub fn coverage(title: &str, content: &Coverage) -> Result<String, FigureError> {
-    // One slot more than goals: the legend.
+    // One slot more than there are goals, for the legend.
     let rows = u32::try_from((content.done.len() + 1).div_ceil(PER_ROW)).unwrap_or(1);
     page(title, (WIDTH, HEADER + rows * WALL_PX + CURVE_PX), |area| {
         let (walls, curve) = area.split_vertically(rows * WALL_PX);

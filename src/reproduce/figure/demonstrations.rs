@@ -1,4 +1,4 @@
-//! Figure 2: demonstrations in grey, the generalized curve through its goals.
+//! Figure 2: demonstrations in grey, and the generalized curve through its goals.
 
 use super::FigureError;
 use super::canvas::range_of;
@@ -8,23 +8,23 @@ use super::canvas::{
 use super::style::{GREY, WIDTH, colour};
 use crate::framework::Feature;
 
-/// One feature over time; all times in s on the mean demonstration's scale.
+/// One feature over time; all times in s, scaled to the mean demonstration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Generalization {
-    /// What is shown.
+    /// Feature shown.
     pub feature: Feature,
-    /// Each demonstration's samples: time (s), value (feature's unit).
+    /// Samples of each demonstration: time (s), value (feature's unit).
     pub demonstrations: Vec<Vec<(f64, f64)>>,
-    /// The interpolated curve.
+    /// Points of the interpolated curve: time (s), value (feature's unit).
     pub curve: Vec<(f64, f64)>,
-    /// The goals.
+    /// Goals: time (s), value (feature's unit).
     pub goals: Vec<(f64, f64)>,
 }
 
 /// Height of one feature's panel, px.
 const PANEL_PX: u32 = 520;
 
-/// The figure as SVG, features one below the other.
+/// Draws the figure as SVG, one feature below the other.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.

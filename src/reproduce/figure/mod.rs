@@ -20,15 +20,15 @@ pub use demonstrations::{Generalization, demonstrations};
 pub use trade_off::{Method, trade_off};
 pub use trail::{Trail, trails};
 
-/// Why a figure could not be drawn.
+/// Reason why a figure could not be drawn.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FigureError {
-    /// The drawing library refused.
+    /// The drawing library failed.
     #[error("figure {title:?} could not be drawn: {message}")]
     Drawing {
         /// Title of the figure.
         title: String,
-        /// The library's words.
+        /// Message of the library.
         message: String,
     },
 }

@@ -1,12 +1,12 @@
-//! How every figure looks: sizes, text and a palette that colour-blind readers can tell apart; no figure relies on
-//! colour alone (each series has its own marker).
+//! Common style of all figures: sizes, text, and a palette that colour-blind readers can distinguish. No figure relies
+//! on colour alone: each series has its own marker.
 //!
-//! Palette: M. Okabe, K. Ito, "Color Universal Design", 2008 (yellow left out: too pale on white).
+//! Palette: M. Okabe, K. Ito, "Color Universal Design", 2008 (without yellow, which is too pale on white).
 
 use plotters::style::{FontDesc, FontFamily, FontStyle, RGBColor, TextStyle};
 
-/// Width of every figure, px: twice the size they are meant to be seen at, because the drawing library rounds
-/// coordinates to whole pixels.
+/// Width of every figure, px: twice the intended display size, because the drawing library rounds coordinates to whole
+/// pixels.
 pub(super) const WIDTH: u32 = 1600;
 
 const PALETTE: [RGBColor; 7] = [
@@ -19,11 +19,11 @@ const PALETTE: [RGBColor; 7] = [
     RGBColor(0, 0, 0),
 ];
 
-/// Text, axes.
+/// Colour of text and axes.
 pub(super) const INK: RGBColor = RGBColor(34, 34, 34);
-/// What is behind the message: demonstrations, references.
+/// Colour of background data: demonstrations, references.
 pub(super) const GREY: RGBColor = RGBColor(150, 150, 150);
-/// Grid lines.
+/// Colour of grid lines.
 pub(super) const GRID: RGBColor = RGBColor(226, 226, 226);
 
 /// Colour of series `index`.
@@ -31,12 +31,12 @@ pub(super) fn colour(index: usize) -> RGBColor {
     PALETTE[index % PALETTE.len()]
 }
 
-/// Text of `size` px.
+/// Text style of `size` px.
 pub(super) fn text(size: u32) -> TextStyle<'static> {
     styled(size, FontStyle::Normal)
 }
 
-/// Heading of `size` px.
+/// Heading style of `size` px.
 pub(super) fn heading(size: u32) -> TextStyle<'static> {
     styled(size, FontStyle::Bold)
 }

@@ -1,4 +1,4 @@
-//! Every figure is well-formed SVG with its axes named, and the same data give the same bytes.
+//! Every figure is well-formed SVG with named axes, and the same data give the same bytes.
 
 use super::*;
 use crate::framework::Feature;

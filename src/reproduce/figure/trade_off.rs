@@ -1,6 +1,6 @@
-//! Methods on one plane: how many evaluations each needs, on a logarithmic axis, and how far from the goals it ends.
+//! Methods in one plane: the number of evaluations each needs, on a logarithmic axis, against its final discrepancy.
 //!
-//! A marker is the mean over the runs, its cross the 95 % interval of that mean; the name stands beside it.
+//! A marker is the mean over the runs, its cross the 95 % interval of that mean; the name is next to it.
 
 use super::FigureError;
 use super::canvas::{Area, Axis, Drawn, LEFT, RIGHT, Scale, marker, page, panel, pixel, pixels, plain_line};
@@ -10,25 +10,25 @@ use plotters::element::{PathElement, Text};
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// What a method needed and reached.
+/// Cost and result of one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Method {
-    /// Its name.
+    /// Name shown next to the marker.
     pub name: String,
-    /// Evaluations of a run.
+    /// Evaluations per run.
     pub evaluations: Summary,
-    /// Discrepancy of a run (features' unit).
+    /// Discrepancy per run (features' unit).
     pub discrepancy: Summary,
 }
 
 /// Height of the figure, px.
 const HEIGHT: u32 = 1000;
-/// About the size of a letter and the height of a line, px: the library cannot measure text.
+/// Approximate width of a letter and height of a line, px; the library cannot measure text.
 const LETTER: (i32, i32) = (15, 36);
-/// From a marker to its name, px.
+/// Distance from a marker to its name, px.
 const GAP: i32 = 22;
 
-/// The figure as SVG; `unit` is the discrepancy's.
+/// Draws the figure as SVG; `unit` is the discrepancy's.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.
@@ -42,12 +42,12 @@ fn interval(summary: &Summary) -> [f64; 3] {
     [low, summary.mean, high]
 }
 
-/// Evaluations as decimal logarithms; there is no run with less than one.
+/// Evaluations as decimal logarithms; every run has at least one.
 fn logarithms(summary: &Summary) -> [f64; 3] {
     interval(summary).map(|evaluations| evaluations.max(1.0).log10())
 }
 
-/// Whole decades around `values`, at least one, and a little room for the last tick's label.
+/// Whole decades around `values`, at least one, with some room for the last tick's label.
 fn decades(values: impl Iterator<Item = [f64; 3]>) -> [f64; 2] {
     let widest = |[low, high]: [f64; 2], [l, _, h]: [f64; 3]| [low.min(l), high.max(h)];
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], widest);
@@ -83,7 +83,7 @@ fn draw<'b>(area: &Area<'b>, unit: &str, methods: &[Method]) -> Drawn<'b> {
     Ok(())
 }
 
-/// A rectangle of the page, px.
+/// A rectangle on the page, px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Frame {
     left: i32,
@@ -102,8 +102,8 @@ impl Frame {
     }
 }
 
-/// A name where it covers neither a marker nor another name, if there is such a place near its marker; a thin line
-/// leads to names that do not stand beside theirs.
+/// Draws a name where it covers neither a marker nor another name, if there is such a place near its marker. A thin
+/// line leads to names that are not directly next to theirs.
 fn name<'b>(area: &Area<'b>, at: (i32, i32), name: &str, taken: &mut Vec<Frame>) -> Drawn<'b> {
     let wide = LETTER.0 * i32::try_from(name.chars().count()).unwrap_or(0);
     let frame = place(at, wide, pixels(LEFT)..pixels(WIDTH - RIGHT), taken);
@@ -118,7 +118,7 @@ fn name<'b>(area: &Area<'b>, at: (i32, i32), name: &str, taken: &mut Vec<Frame>)
     area.draw(&Text::new(name.to_owned(), (frame.left, middle), style))
 }
 
-/// Beside the marker at `(x, y)`, right or left, else higher or lower, the nearest free place within `page`.
+/// The nearest free place within `page`: right or left of the marker at `(x, y)`, or else higher or lower.
 fn place((x, y): (i32, i32), wide: i32, page: std::ops::Range<i32>, taken: &[Frame]) -> Frame {
     let sides = [x + GAP, x - GAP - wide, x - wide / 2];
     let rises = [0, -LETTER.1, LETTER.1, -2 * LETTER.1, 2 * LETTER.1, -3 * LETTER.1, 3 * LETTER.1];

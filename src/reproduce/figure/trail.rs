@@ -1,4 +1,4 @@
-//! Figure 5: where the tool went, goal by goal, beside where it should have been; a row a run, from above and from the
+//! Figure 5: positions of the tool, goal by goal, next to the goals; one row per run, seen from above and from the
 //! side, both axes of a panel to one scale.
 
 use super::FigureError;
@@ -6,21 +6,21 @@ use super::canvas::{Area, Axis, BOTTOM, Drawn, HEADER, LEFT, RIGHT, STRIP, Sampl
 use super::canvas::{Chart, label, legend_row, line, page, panel, pixel, plain_line, range_of, ring};
 use super::style::{GREY, INK, WIDTH};
 
-/// One run.
+/// One run of the figure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trail {
     /// Method or setting.
     pub name: String,
-    /// Tool position after each goal, x y z, mm.
+    /// Tool position after each goal: x, y, z, mm.
     pub positions_mm: Vec<[f64; 3]>,
 }
 
 /// Height of one run's panels, px.
 const ROW_PX: u32 = 660;
-/// Goals nearer than this share a label, px.
+/// Goals closer than this share a label, px.
 const TOGETHER_PX: i32 = 40;
 
-/// The figure as SVG; `goals_mm` are the goals' x y z in mm.
+/// Draws the figure as SVG; `goals_mm` are the goals' x, y, z in mm.
 ///
 /// # Errors
 /// [`FigureError`] if it cannot be drawn.
@@ -44,7 +44,7 @@ pub fn trails(title: &str, goals_mm: &[[f64; 3]], trails: &[Trail]) -> Result<St
     })
 }
 
-/// Projection of trail `index` on coordinates `[horizontal, vertical]` (0 x, 1 y, 2 z); the axes hold all trails.
+/// Projection of trail `index` onto coordinates `[horizontal, vertical]` (0 x, 1 y, 2 z); the axes cover all trails.
 fn view<'b>(
     area: &Area<'b>,
     title: &str,
@@ -58,7 +58,7 @@ fn view<'b>(
     let room = [width.saturating_sub(LEFT + RIGHT).max(1), height.saturating_sub(TOP + BOTTOM).max(1)];
     let [across, up] = to_one_scale([range_of(all().map(|p| p[h])), range_of(all().map(|p| p[v]))], room);
     let names = ["x, forward (mm)", "y, to the left (mm)", "z, up (mm)"];
-    // Seen from above, the robot's left is at the left: y runs backwards.
+    // Seen from above, the robot's left is on the left: y runs backwards.
     let across = if h == 1 { [across[1], across[0]] } else { across };
     let axis = |coordinate: usize, range| Axis {
         label: names[coordinate].to_owned(),
@@ -77,7 +77,7 @@ fn view<'b>(
     number_goals(area, &chart, &goals)
 }
 
-/// A ring at every goal, and numbers: one label for goals that lie together.
+/// Draws a ring at every goal, and numbers, with one label for goals that lie together.
 fn number_goals<'b>(area: &Area<'b>, chart: &Chart<'_, 'b>, goals: &[(f64, f64)]) -> Drawn<'b> {
     let places: Vec<(i32, i32)> = goals.iter().map(|goal| pixel(area, chart, *goal)).collect();
     places.iter().try_for_each(|place| ring(area, *place, 9, INK))?;
@@ -88,7 +88,7 @@ fn number_goals<'b>(area: &Area<'b>, chart: &Chart<'_, 'b>, goals: &[(f64, f64)]
     Ok(())
 }
 
-/// Places nearer than `within` to the first of a group, with that first place.
+/// Groups places closer than `within` to the first of a group; returns that first place with the indices.
 fn together(places: &[(i32, i32)], within: i32) -> Vec<((i32, i32), Vec<usize>)> {
     let mut groups: Vec<((i32, i32), Vec<usize>)> = Vec::new();
     for (index, place) in places.iter().enumerate() {
@@ -103,7 +103,7 @@ fn together(places: &[(i32, i32)], within: i32) -> Vec<((i32, i32), Vec<usize>)>
     groups
 }
 
-/// Widens one of the ranges so that a unit is as long on both axes.
+/// Widens one of the ranges so that both axes have the same scale.
 fn to_one_scale(ranges: [[f64; 2]; 2], room_px: [u32; 2]) -> [[f64; 2]; 2] {
     let span = |k: usize| ranges[k][1] - ranges[k][0];
     let per_pixel = (span(0) / f64::from(room_px[0])).max(span(1) / f64::from(room_px[1]));
