@@ -55,27 +55,13 @@ pub struct ServeArguments {
 
 impl ServeArguments {
     fn flags(&self) -> Flags {
-        let mut server = Flags::new();
-        let mut jobs = Flags::new();
-        let mut log = Flags::new();
-        if let Some(path) = &self.data_dir {
-            server.insert("data_dir".to_owned(), path.display().to_string().into());
-        }
-        if let Some(address) = self.listen {
-            server.insert("listen".to_owned(), address.to_string().into());
-        }
-        if self.allow_remote {
-            server.insert("allow_remote".to_owned(), true.into());
-        }
-        if let Some(workers) = self.workers {
-            jobs.insert("workers".to_owned(), workers.into());
-        }
-        if let Some(format) = self.log_format {
-            let name = if format == LogFormat::Json { "json" } else { "text" };
-            log.insert("format".to_owned(), name.into());
-        }
-        let sections = [("server", server), ("jobs", jobs), ("log", log)];
-        sections.into_iter().map(|(name, keys)| (name.to_owned(), keys.into())).collect()
+        let format = self.log_format.map(|format| if format == LogFormat::Json { "json" } else { "text" });
+        Flags::default()
+            .with("server.data_dir", "--data-dir", self.data_dir.as_ref().map(|path| path.display().to_string()))
+            .with("server.listen", "--listen", self.listen.map(|address| address.to_string()))
+            .with("server.allow_remote", "--allow-remote", self.allow_remote.then_some(true))
+            .with("jobs.workers", "--workers", self.workers.map(|workers| i64::try_from(workers).unwrap_or(i64::MAX)))
+            .with("log.format", "--log-format", format)
     }
 }
 

@@ -1,10 +1,10 @@
 //! `[jobs]`: concurrency, leases and checkpoints.
 
-use super::{ConfigError, within};
-use serde::{Deserialize, Serialize};
+use super::{OutOfBounds, within};
+use serde::Deserialize;
 
 /// Settings of the job runner.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct JobsConfig {
     /// Jobs run concurrently; one per core if absent.
@@ -24,7 +24,7 @@ impl Default for JobsConfig {
 }
 
 impl JobsConfig {
-    pub(super) fn check(&self) -> Result<(), ConfigError> {
+    pub(super) fn check(&self) -> Result<(), OutOfBounds> {
         within("jobs.workers", self.workers.unwrap_or(1), &(1..=1024), "1 to 1024")?;
         within("jobs.lease_ms", self.lease_ms, &(500..=3_600_000), "500 to 3600000")?;
         within("jobs.heartbeat_ms", self.heartbeat_ms, &(50..=self.lease_ms / 3), "50 to a third of jobs.lease_ms")?;

@@ -1,10 +1,10 @@
 //! `[limits]`: bounds on sizes and times.
 
-use super::{ConfigError, within};
-use serde::{Deserialize, Serialize};
+use super::{OutOfBounds, within};
+use serde::Deserialize;
 
 /// Bounds beyond which a request is rejected as too large or too slow.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LimitsConfig {
     /// Maximum size of one upload, bytes.
@@ -32,7 +32,7 @@ impl Default for LimitsConfig {
 }
 
 impl LimitsConfig {
-    pub(super) fn check(&self) -> Result<(), ConfigError> {
+    pub(super) fn check(&self) -> Result<(), OutOfBounds> {
         within("limits.upload_bytes", self.upload_bytes, &(1 << 10..=1 << 30), "1024 to 1073741824")?;
         within("limits.body_bytes", self.body_bytes, &(1 << 10..=1 << 30), "1024 to 1073741824")?;
         within("limits.answer_ms", self.answer_ms, &(1000..=3_600_000), "1000 to 3600000")?;

@@ -1,9 +1,9 @@
 //! `[log]`: logging.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 /// Settings of the log on stderr.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LogConfig {
     /// `tracing` filter, for example `info,cgda=debug`.
@@ -13,7 +13,7 @@ pub struct LogConfig {
 }
 
 /// Format of log lines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum LogFormat {
     /// Text for people.

@@ -5,19 +5,20 @@ mod jobs;
 mod limits;
 mod log;
 mod server;
+mod sources;
 
 pub use jobs::JobsConfig;
 pub use limits::LimitsConfig;
 pub use log::{LogConfig, LogFormat};
 pub use server::ServerConfig;
+pub use sources::Flags;
 
-use figment::Figment;
-use figment::providers::{Env, Format as _, Serialized, Toml};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// All settings.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Config {
     /// Addresses and access.
@@ -39,107 +40,115 @@ pub enum ConfigError {
         /// Path as given.
         path: PathBuf,
     },
-    /// A key or value is invalid.
-    #[error("invalid configuration: {0}")]
-    Wrong(#[from] Box<figment::Error>),
-    /// A value is out of bounds.
-    #[error("invalid configuration: {key} is {value}: give {bounds}")]
-    Bounds {
-        /// Name of the key.
-        key: &'static str,
-        /// Value given.
-        value: String,
-        /// Allowed values.
-        bounds: &'static str,
+    /// The file cannot be read.
+    #[error("the configuration file {path} cannot be read: {source}")]
+    Unreadable {
+        /// Path of the file.
+        path: PathBuf,
+        /// Cause.
+        source: std::io::Error,
     },
+    /// The file is not TOML.
+    #[error("invalid configuration: {path}: {source}")]
+    NoToml {
+        /// Path of the file.
+        path: PathBuf,
+        /// Place and cause.
+        source: Box<toml::de::Error>,
+    },
+    /// A key is unknown, or its value has the wrong type.
+    #[error("invalid configuration: {key}: {reason}{origin}")]
+    Key {
+        /// Name of the key.
+        key: String,
+        /// Defect, and what is allowed.
+        reason: String,
+        /// Source of the value.
+        origin: Origin,
+    },
+    /// A value is out of its bounds.
+    #[error("invalid configuration: {wrong}{origin}")]
+    Bounds {
+        /// Key, value and bounds.
+        wrong: OutOfBounds,
+        /// Source of the value.
+        origin: Origin,
+    },
+    /// The sources cannot be merged.
+    #[error("invalid configuration: {0}")]
+    Sources(#[from] config::ConfigError),
 }
 
-/// Values given as flags, as nested keys.
-pub type Flags = figment::value::Dict;
+/// The file, environment variable or flag that set a value; `None` if it is a default.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Origin(Option<String>);
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|origin| write!(f, " (set by {origin})"))
+    }
+}
+
+/// A value out of its bounds.
+#[derive(Debug, thiserror::Error)]
+#[error("{key} is {value}: give {bounds}")]
+pub struct OutOfBounds {
+    key: &'static str,
+    value: String,
+    bounds: &'static str,
+}
 
 impl Config {
     /// Reads `file` (by default `cgda.toml` in the working directory, if it exists), the environment and `flags`.
     ///
     /// # Errors
-    /// [`ConfigError`] names the key.
+    /// [`ConfigError`] names the key and the source of its value.
     pub fn load(file: Option<&Path>, flags: &Flags) -> Result<Self, ConfigError> {
-        let path = match file {
-            Some(path) if !path.is_file() => return Err(ConfigError::NoFile { path: path.to_owned() }),
-            Some(path) => path,
-            None => Path::new("cgda.toml"),
-        };
-        let defaults = Figment::from(Serialized::defaults(Self::default()));
-        let with_file = if path.is_file() { defaults.merge(Toml::file_exact(path)) } else { defaults };
-        let config: Self = with_file
-            .merge(Env::prefixed("CGDA_").split("__").filter(|key| key.as_str().contains('.')))
-            .merge(Serialized::defaults(flags))
-            .extract()
-            .map_err(Box::new)?;
-        config.check()?;
+        let variables =
+            std::env::vars_os().filter_map(|(name, text)| Some((name.into_string().ok()?, text.into_string().ok()?)));
+        let default = Path::new("cgda.toml");
+        match file {
+            Some(path) if !path.is_file() => Err(ConfigError::NoFile { path: path.to_owned() }),
+            Some(path) => Self::of(Some(path), variables, flags),
+            None => Self::of(default.is_file().then_some(default), variables, flags),
+        }
+    }
+
+    fn of(
+        file: Option<&Path>,
+        environment: impl Iterator<Item = (String, String)>,
+        flags: &Flags,
+    ) -> Result<Self, ConfigError> {
+        let values = sources::merged(file, environment, flags)?;
+        let origin = |key: &str| Origin(sources::origin(&values, key).map(str::to_owned));
+        // By way of JSON, for the crate's own values change types silently: "yes" to true, 1.5 to 2.
+        let plain: serde_json::Value = values.clone().try_deserialize()?;
+        let config: Self = serde_path_to_error::deserialize(plain).map_err(|error| {
+            let key = error.path().to_string();
+            ConfigError::Key { reason: error.inner().to_string(), origin: origin(&key), key }
+        })?;
+        config.check().map_err(|wrong| ConfigError::Bounds { origin: origin(wrong.key), wrong })?;
         Ok(config)
     }
 
-    fn check(&self) -> Result<(), ConfigError> {
+    fn check(&self) -> Result<(), OutOfBounds> {
         self.jobs.check()?;
         self.limits.check()
     }
 }
 
 /// Checks that a value is within its bounds.
-fn within<T: PartialOrd + Copy + std::fmt::Display>(
+fn within<T: PartialOrd + Copy + fmt::Display>(
     key: &'static str,
     value: T,
     range: &std::ops::RangeInclusive<T>,
     bounds: &'static str,
-) -> Result<(), ConfigError> {
+) -> Result<(), OutOfBounds> {
     if range.contains(&value) {
         return Ok(());
     }
-    Err(ConfigError::Bounds { key, value: value.to_string(), bounds })
+    Err(OutOfBounds { key, value: value.to_string(), bounds })
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn load(toml: &str) -> Result<Config, ConfigError> {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("cgda.toml");
-        std::fs::write(&path, toml).unwrap();
-        Config::load(Some(&path), &Flags::new())
-    }
-
-    #[test]
-    fn a_file_changes_what_it_names_only() {
-        let config = load("[jobs]\nworkers = 7\n").unwrap();
-        assert_eq!(
-            config,
-            Config { jobs: JobsConfig { workers: Some(7), ..JobsConfig::default() }, ..Config::default() }
-        );
-    }
-
-    #[test]
-    fn unknown_keys_are_refused_by_name() {
-        for (toml, name) in [("[jobs]\nworker = 7\n", "worker"), ("[job]\nworkers = 7\n", "job"), ("x = 1", "x")] {
-            let text = load(toml).unwrap_err().to_string();
-            assert!(text.contains(&format!("`{name}`")), "{text}");
-        }
-    }
-
-    #[test]
-    fn flags_win_over_the_file() {
-        let directory = tempfile::tempdir().unwrap();
-        let path = directory.path().join("cgda.toml");
-        std::fs::write(&path, "[server]\nlisten = \"127.0.0.1:1\"\n").unwrap();
-        let server = Flags::from([("listen".to_owned(), "127.0.0.1:2".into())]);
-        let flags = Flags::from([("server".to_owned(), server.into())]);
-        let config = Config::load(Some(&path), &flags).unwrap();
-        assert_eq!(config.server.listen.port(), 2);
-    }
-
-    #[test]
-    fn values_out_of_bounds_are_refused_with_the_bounds() {
-        let text = load("[jobs]\nlease_ms = 10\n").unwrap_err().to_string();
-        assert!(text.contains("jobs.lease_ms is 10"), "{text}");
-    }
-}
+mod tests;
