@@ -8,13 +8,19 @@ DATA_DIR ?= data
 TOOLS := target/tools/bin
 BUF := target/tools/npm/node_modules/.bin/buf
 PROTO_BASELINE := tests/fixtures/cgda.v1.binpb
-export PATH := $(HOME)/.cargo/bin:$(PATH)
+# The toolchain of rustup's own installer; behind the caller's PATH, so that a cargo chosen there stays chosen.
+export PATH := $(PATH):$(or $(CARGO_HOME),$(HOME)/.cargo)/bin:$(HOME)/.cargo/bin
 export CARGO_TERM_COLOR ?= never
+# Both packages at once, in every step: one set of features, so that each dependency is built once.
+ALL := --locked --workspace
 
-.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-docs test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
+# Runs a command; all it said is shown if it fails, its last line if it does not.
+quietly = @echo '$(1)'; said=$$($(1) 2>&1) || { printf '%s\n' "$$said" >&2; exit 1; }; tail -n 1 <<<"$$said"
+
+.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-docs debug-binary fetch test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
 
 help: ## this list
-	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 16
+	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 16
 
 setup: ## install what building and running need
 	@deploy/setup.sh run
@@ -34,8 +40,11 @@ web/dist/index.html: web/node_modules/.package-lock.json $(WEB_SOURCES)
 
 web: web/dist/index.html ## build the dashboard into web/dist
 
-run: setup ## from a fresh machine to a served demo; address and token are printed
-	@$(MAKE) --no-print-directory web
+fetch: ## download every crate, those of other platforms too: cargo-deny reads them all
+	cargo fetch --locked --quiet
+
+run: setup ## from a fresh machine to a served demo; address and token are printed (LISTEN=127.0.0.1:9090 for another port)
+	@$(MAKE) --no-print-directory -j 2 web fetch
 	cargo build --release --locked --features embed-web
 	target/release/cgda serve --demo --data-dir $(DATA_DIR) --listen $(LISTEN)
 
@@ -49,12 +58,13 @@ test: setup-test ## every gate and every test
 
 check: check-rust check-web check-proto image-lint ## formatting, lints, documentation, dependencies
 
-check-rust:
-	cargo fmt --all --check
-	cargo clippy --locked --workspace --all-targets --quiet -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps --document-private-items --quiet
-	$(TOOLS)/cargo-deny --offline check --hide-inclusion-graph bans licenses sources 2>&1 | tail -n 1
-	$(TOOLS)/cargo-shear
+check-rust: fetch
+	cargo fmt --all --check || { echo 'the code is not formatted: run `make fmt`' >&2; exit 1; }
+	cargo clippy $(ALL) --all-targets --quiet -- -D warnings
+	# --examples: with the features of the tests, so that what clippy has checked is not checked again.
+	RUSTDOCFLAGS="-D warnings" cargo doc $(ALL) --lib --examples --no-deps --document-private-items --quiet
+	$(call quietly,$(TOOLS)/cargo-deny --offline check --hide-inclusion-graph bans licenses sources)
+	$(call quietly,$(TOOLS)/cargo-shear)
 
 check-web: web/node_modules/.package-lock.json
 	cd web && npm run --silent check:schema && npm run --silent typecheck && npm run --silent lint
@@ -70,27 +80,30 @@ image-lint:
 	$(TOOLS)/hadolint Dockerfile
 
 test-rust: ## unit, property, golden and black-box tests
-	cargo test --locked --workspace --quiet
+	cargo test $(ALL) --quiet
+
+# --examples: with the features of the tests, so that what they have built is used.
+debug-binary:
+	cargo build $(ALL) --bins --examples --quiet
 
 test-web: web/node_modules/.package-lock.json ## unit tests of the dashboard
 	cd web && npm run --silent test
 
-test-e2e: web/dist/index.html ## the dashboard in a real browser against a real server
-	cargo test --locked --quiet --no-run
+test-e2e: web/dist/index.html debug-binary ## the dashboard in a real browser against a real server
 	cd web && npm run --silent test:e2e
 
-test-examples: ## the client scripts of examples/ over REST and gRPC
-	cargo test --locked --quiet --no-run
+test-examples: debug-binary ## the client scripts of examples/ over REST and gRPC
 	tests/examples.sh target/debug/cgda $(TOOLS)/python
 
 torture: setup-test ## the slow suites: repeated kills, long runs
-	cargo test --locked --workspace --release -- --ignored
+	cargo test $(ALL) --release -- --ignored
 
 bench: ## ratios of the hot paths
 	cargo bench --locked
 
-openapi: ## renew web/openapi.json from the code
-	cargo run --quiet -- openapi > web/openapi.json
+openapi: debug-binary ## renew web/openapi.json from the code
+	target/debug/cgda openapi > target/openapi.json
+	cp target/openapi.json web/openapi.json
 
 audit: setup-test ## known vulnerabilities (needs the advisory database on the network)
 	$(TOOLS)/cargo-deny check advisories
