@@ -51,7 +51,7 @@ impl App {
         let view = self.get_trajectory(id).await?;
         let goals = self.run_goals(&view.run).await?;
         let Work::Execution(work) = self.ports.store.work(&view.job).await? else {
-            return Err(AppError::internal(format!("{} is no execution but has a trajectory", view.job)));
+            return Err(AppError::internal(format!("{} is not an execution, but has a trajectory", view.job)));
         };
         let waypoints: Vec<Vec<f64>> = goals.goals.into_iter().map(|goal| goal.joints).collect();
         let trajectory = compute(move || again(&work.problem, &waypoints)).await??;

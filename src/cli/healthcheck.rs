@@ -56,7 +56,7 @@ mod tests {
     use std::io::{Read as _, Write as _};
     use std::net::TcpListener;
 
-    /// What the command says of a server that gives `answer` to its first request.
+    /// Result of the command for a server that gives `answer` to its first request.
     fn told(answer: &'static str) -> anyhow::Result<()> {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();

@@ -66,7 +66,7 @@ pub enum ConfigError {
         /// Source of the value.
         origin: Origin,
     },
-    /// A value is out of its bounds.
+    /// A value is out of bounds.
     #[error("invalid configuration: {wrong}{origin}")]
     Bounds {
         /// Key, value and bounds.

@@ -1,4 +1,4 @@
-//! Where values come from: the file, the environment, the flags. Each value keeps its source, so that an error names it.
+//! Sources of values: the file, the environment, the flags. Each value keeps its source, so that an error can name it.
 
 use super::ConfigError;
 use config::{ConfigError as SourceError, Map, Source, Value};

@@ -1,4 +1,4 @@
-//! What no name may hold, wherever names come from.
+//! Characters that no name may contain, wherever names come from.
 
 /// Whether a character is not seen or turns the direction of the text around it: control characters, zero-width and
 /// bidirectional ones.

@@ -56,7 +56,7 @@ pub enum PresetError {
         preset: String,
         /// Path of the file as named in the preset.
         file: String,
-        /// Why, in the resolver's words.
+        /// Reason given by the resolver.
         reason: String,
     },
     /// The TOML does not have the expected form; the message shows line and column.

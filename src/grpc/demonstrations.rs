@@ -1,4 +1,4 @@
-//! DemonstrationService.
+//! `DemonstrationService`.
 
 use super::convert::demonstration::{header, patch, samples};
 use super::convert::{items, page, resource};
@@ -11,14 +11,14 @@ use proto::demonstration_service_server::DemonstrationService;
 use proto::upload_request::Part;
 use tonic::{Request, Response, Status, Streaming};
 
-/// Most files of one upload.
+/// Maximum number of files of one upload.
 const MAX_FILES: usize = 64;
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service {
-    /// The use-cases.
+    /// Use cases.
     pub app: App,
-    /// Most bytes of one upload.
+    /// Maximum size of one upload, bytes.
     pub upload_limit_bytes: usize,
 }
 
@@ -112,7 +112,7 @@ impl Service {
     }
 }
 
-/// An upload, part by part.
+/// An upload, assembled part by part.
 struct Assembly {
     header: Option<proto::UploadHeader>,
     files: Vec<UploadFile>,
@@ -130,7 +130,7 @@ impl Assembly {
             Some(Part::Header(header)) if self.header.is_none() && self.files.is_empty() => self.header = Some(header),
             Some(Part::FileName(file_name)) if self.header.is_some() => {
                 if self.files.len() == MAX_FILES {
-                    let message = format!("an upload holds at most {MAX_FILES} files");
+                    let message = format!("an upload has at most {MAX_FILES} files");
                     return Err(AppError::new(ErrorKind::TooLarge, "too_many_files", message));
                 }
                 self.files.push(UploadFile { file_name, bytes: Vec::new() });

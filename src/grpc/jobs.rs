@@ -1,4 +1,4 @@
-//! JobService.
+//! `JobService`.
 
 use super::convert::{items, job, page, resource, text, work};
 use super::error::status;
@@ -12,7 +12,7 @@ use tonic::{Request, Response, Status};
 
 const DEFAULT_WAIT_MS: u32 = 30_000;
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]

@@ -1,4 +1,4 @@
-//! RecognitionService.
+//! `RecognitionService`.
 
 use super::convert::recognition::{question, request};
 use super::convert::{self, all};
@@ -13,10 +13,10 @@ use proto::recognition_service_server::RecognitionService;
 use proto::recognize_online_request::Part;
 use tonic::{Request, Response, Status, Streaming};
 
-/// Most rows of one online recognition.
+/// Maximum number of rows of one online recognition.
 const MAX_ROWS: usize = 100_000;
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]
@@ -51,7 +51,7 @@ impl RecognitionService for Service {
     }
 }
 
-/// One online recognition: all rows so far, and where more come from.
+/// One online recognition: all rows so far, and the stream of further ones.
 struct Session {
     app: App,
     parts: Streaming<proto::RecognizeOnlineRequest>,
@@ -61,14 +61,14 @@ struct Session {
 }
 
 impl Session {
-    /// The answer after the next message of samples, or the end.
+    /// The answer after the next message of samples; `None` at the end of the stream.
     async fn next(mut self) -> Result<Option<(proto::Recognition, Self)>, Status> {
         let Some(message) = self.parts.message().await? else { return Ok(None) };
         let Some(Part::Samples(proto::RecognizeOnlineSamples { rows })) = message.part else {
             return Err(status(out_of_order()));
         };
         if self.seen.len() + rows.len() > MAX_ROWS {
-            let text = format!("an online recognition holds at most {MAX_ROWS} rows: start another");
+            let text = format!("an online recognition takes at most {MAX_ROWS} rows: start another");
             return Err(status(AppError::new(ErrorKind::TooLarge, "too_many_rows", text)));
         }
         self.seen.extend(convert::rows("/rows", rows).map_err(status)?);

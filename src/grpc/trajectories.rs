@@ -1,4 +1,4 @@
-//! TrajectoryService.
+//! `TrajectoryService`.
 
 use super::convert::resource;
 use super::convert::trajectory::{chunks, split};
@@ -15,7 +15,7 @@ use tonic::{Request, Response, Status};
 const DEFAULT_BATCH: u32 = 256;
 const MAX_BATCH: u32 = 4096;
 
-/// The service.
+/// Service implementation on the use cases.
 pub struct Service(pub App);
 
 #[tonic::async_trait]

@@ -5,7 +5,7 @@ use crate::app::ports::{Clock, Ids, SEED_BOUND};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use uuid::Uuid;
 
-/// The system clock.
+/// Clock port on the clocks of the operating system.
 #[derive(Debug, Clone, Copy)]
 pub struct SystemClock {
     started: Instant,

@@ -28,7 +28,7 @@ pub struct PaperCell {
     pub settings_as_run: String,
     /// Name of the preset it starts from.
     pub preset: String,
-    /// Which of the preset's methods to use; the first if absent.
+    /// Method to use, one of the preset's; the first if absent.
     #[serde(default)]
     pub method: Option<String>,
     /// Names of the patches to apply, in order.

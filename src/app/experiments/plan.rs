@@ -1,5 +1,5 @@
-//! From a request to a plan: the paper's cells and presets are looked up, what was left open is filled in, and each
-//! cell's problem is checked as a run of it would check it.
+//! From a request to a plan: looks up presets and the paper's cells, fills in defaults, and checks each cell's problem
+//! as a run would.
 
 use crate::app::model::{AppError, EveryTable, ExperimentRequest, FieldError, PaperTable};
 use crate::app::ports::SEED_BOUND;
@@ -9,13 +9,13 @@ use crate::framework::experiment::{CellSpec, ExperimentSpec, MatrixSpec, Plan};
 use crate::reproduce::paper::PaperTables;
 use crate::reproduce::shipped;
 
-/// Most cells of one experiment: each keeps its whole problem.
+/// Maximum number of cells of an experiment; each stores its whole problem.
 const MAX_CELLS: usize = 1000;
-/// Most runs (cells x repetitions) of one experiment.
+/// Maximum number of runs (cells x repetitions) of an experiment.
 const MAX_RUNS: u64 = 100_000;
 
 impl App {
-    /// The request with what was left open filled in, and its plan.
+    /// The request with defaults filled in, and its plan.
     pub(in crate::app) async fn plan_experiment(
         &self,
         mut request: ExperimentRequest,
@@ -45,7 +45,7 @@ fn default_name(request: &ExperimentRequest) -> String {
     }
 }
 
-/// Refuses what is too much before it is expanded.
+/// Rejects requests that are too large before they are expanded.
 fn check_size(request: &ExperimentRequest) -> Result<(), AppError> {
     let axes = |matrix: &MatrixSpec| {
         let lengths = [matrix.presets.len(), matrix.methods.len().max(1), matrix.settings.len().max(1)];
@@ -53,7 +53,7 @@ fn check_size(request: &ExperimentRequest) -> Result<(), AppError> {
     };
     let cells = request.cells.len().saturating_add(request.matrix.as_ref().map_or(0, axes));
     if cells > MAX_CELLS {
-        let detail = format!("{cells} cells are more than {MAX_CELLS}: split the experiment");
+        let detail = format!("{cells} cells exceed the limit of {MAX_CELLS}: split the experiment");
         return Err(AppError::field("/matrix", "out_of_range", detail));
     }
     if request.repetitions == 0 {
@@ -76,7 +76,7 @@ fn plan(request: &ExperimentRequest, name: String, seed: u64) -> Result<Plan, Ap
         |error: &(dyn std::error::Error + 'static)| AppError::field("", "invalid_experiment", chain_text(error));
     let plan = spec.plan(|name| shipped::preset(name).ok()).map_err(|error| wrong(&error))?;
     if plan.runs() > MAX_RUNS {
-        let detail = format!("{} runs are more than {MAX_RUNS}: split the experiment", plan.runs());
+        let detail = format!("{} runs exceed the limit of {MAX_RUNS}: split the experiment", plan.runs());
         return Err(AppError::field("/repetitions", "out_of_range", detail));
     }
     let mut errors = Vec::new();

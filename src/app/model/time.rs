@@ -1,9 +1,9 @@
-//! Points in time as the service stores and shows them.
+//! Points in time as stored and shown by the service.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
-/// Milliseconds since 1970-01-01T00:00:00Z; shown as RFC 3339 in UTC.
+/// Milliseconds since 1970-01-01T00:00:00Z; serialized as RFC 3339 in UTC.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Timestamp(pub i64);
 

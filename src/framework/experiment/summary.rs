@@ -19,7 +19,7 @@ pub struct Summary {
     pub sd: Option<f64>,
     /// 95 % confidence interval of the mean by Student's t; absent for a single value.
     pub interval_95: Option<[f64; 2]>,
-    /// Median.
+    /// Middle value: half of the values are smaller.
     pub median: f64,
     /// 90th percentile.
     pub p90: f64,

@@ -1,4 +1,4 @@
-//! What a broken preset is refused with, and the repository's presets for the unit tests of this crate.
+//! Errors of broken presets, and the repository's presets for the unit tests of this crate.
 
 use super::*;
 use std::path::Path;
