@@ -13,7 +13,7 @@ use crate::framework::execution::ProblemError;
 use crate::framework::experiment::{Experiment, RunError, RunId, result};
 use crate::framework::generalization::{GeneralizeError, GeneralizeSpec, RbfError, RbfSpec, generalize, interpolate};
 use crate::framework::robot::{Chain, RobotModel};
-use crate::framework::world::{self, WorldSpec};
+use crate::framework::world;
 
 /// The wax demonstrations of the examples, synthetic: the paper's own were not published.
 const WAX: [(&str, &str); 4] = [
@@ -182,10 +182,10 @@ fn wall_figure(experiment: &Experiment, cells: &[PaperCell]) -> Result<String, P
     let Some(id) = median_run(experiment, index) else { return Err(missing) };
     let run = result(experiment.plan(), id)?;
     let problem = &experiment.plan().cells[index as usize].problem;
-    let WorldSpec::Coverage(wall) = &problem.world else { return Err(missing) };
+    let Some(wall) = problem.world.properties().surface else { return Err(missing) };
     let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf).map_err(rebuild)?, &problem.robot).map_err(rebuild)?;
     let mut world = world::build(&problem.world, &chain).map_err(rebuild)?;
-    let (rows, columns) = (wall.rows as usize, wall.columns as usize);
+    let (rows, columns) = (wall.rows, wall.columns);
     let mut observation = [0.0];
     let (mut done, mut achieved) = (Vec::new(), Vec::new());
     for goal in &run.goals {

@@ -66,7 +66,6 @@ mod tests {
     use super::*;
     use crate::framework::execution::Iet;
     use crate::framework::method::per_goal::MethodSpec;
-    use crate::framework::world::WorldSpec;
 
     #[test]
     fn every_shipped_preset_can_be_run() {
@@ -84,7 +83,7 @@ mod tests {
                 let mut preset = preset(name).unwrap();
                 assert!(preset.select_method(method), "{name} {method}");
                 assert_eq!(preset.problem.execution.method.name(), method);
-                let covers = matches!(preset.problem.world, WorldSpec::Coverage(_));
+                let covers = preset.problem.world.properties().surface.is_some();
                 let unfit = if covers { ["broyden", "model"] } else { ["particle", "search"] };
                 let fits = !unfit.contains(&method);
                 assert_eq!(Iet::new(&preset.problem, 1).is_ok(), fits, "{name} {method}");

@@ -11,7 +11,6 @@ use crate::app::model::{AppError, EarlierRun, ExecutionRequest, FieldError, Robo
 use crate::framework::execution::Problem;
 use crate::framework::method::per_goal::MethodSpec;
 use crate::framework::method::whole_run::Trial;
-use crate::framework::world::WorldSpec;
 use serde_json::json;
 use sha2::{Digest as _, Sha256};
 
@@ -22,7 +21,7 @@ const MAX_RUNS: u32 = 20;
 
 /// What decides what a pose shows, as a digest; none where that is not the same in two runs.
 pub(super) fn setting(robot: &RobotView, problem: &Problem, seed: u64, repetitions: u32) -> Option<String> {
-    if !matches!(problem.world, WorldSpec::ToolPosition(_)) {
+    if problem.world.properties().surface.is_some() {
         return None;
     }
     let mut reality = problem.execution.reality.clone();

@@ -3,7 +3,7 @@
 use crate::framework::execution::Problem;
 use crate::framework::method::per_goal::MethodSpec;
 use crate::framework::method::whole_run::Prior;
-use crate::framework::world::{RealitySpec, SurfaceView, WorldSpec};
+use crate::framework::world::{self, RealitySpec, SurfaceView, WorldSpec};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RealityArguments {
@@ -35,10 +35,7 @@ impl RealityArguments {
             return;
         }
         let simulator = self.prior == Some(PriorArgument::Simulator);
-        let per_mm = match &problem.world {
-            WorldSpec::ToolPosition(tool) => Some(if tool.unit == "m" { 1e-3 } else { 1.0 }),
-            WorldSpec::Coverage(_) => None,
-        };
+        let per_mm = per_mm(&problem.world);
         let mut reality = problem.execution.reality.take().unwrap_or_default();
         if simulator || self.distort {
             reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..reality };
@@ -69,6 +66,16 @@ impl RealityArguments {
     }
 }
 
+/// Features' unit per millimetre; `None` if the features are not lengths.
+fn per_mm(world: &WorldSpec) -> Option<f64> {
+    let features = world::features(world).unwrap_or_default();
+    match features.first()?.unit.as_str() {
+        "m" => Some(1e-3),
+        "mm" => Some(1.0),
+        _ => None,
+    }
+}
+
 #[derive(Debug, clap::Args)]
 pub(super) struct SurfaceArguments {
     /// The surface cannot be reset between trials.
@@ -80,12 +87,12 @@ pub(super) struct SurfaceArguments {
 }
 
 impl SurfaceArguments {
-    /// Applies the options to a coverage world; other worlds have no surface.
+    /// Applies the options to the surface of a world, if it has one.
     pub fn apply(&self, world: &mut WorldSpec) {
-        if let WorldSpec::Coverage(coverage) = world {
-            coverage.resets &= !self.no_reset;
+        if let Some(surface) = world.surface_mut() {
+            surface.resets &= !self.no_reset;
             if self.cells {
-                coverage.observes = SurfaceView::Cells;
+                surface.observes = SurfaceView::Cells;
             }
         }
     }

@@ -10,7 +10,7 @@ use crate::generalization::Goals;
 use crate::method::per_goal::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
 use crate::method::whole_run::Trial;
 use crate::robot::{Chain, RobotModel};
-use crate::world::{self, CoverageSpec, SurfaceView, WorldSpec};
+use crate::world::{self, WorldSpec};
 use std::sync::Arc;
 
 /// What a run needs of its problem.
@@ -71,7 +71,7 @@ impl Setup {
             world: problem.world.clone(),
             select,
             world_features: shown.len(),
-            painted: matches!(problem.world, WorldSpec::Coverage(_)).then_some(0),
+            painted: problem.world.properties().surface.map(|_| 0),
             constraints: Arc::new(constraints),
             earlier: problem.earlier.clone(),
         })
@@ -79,7 +79,7 @@ impl Setup {
 
     /// The cells in an observation of all the world's features, 64 a word; none where cells are not seen.
     pub(super) fn cells(&self, values: &[f64]) -> Option<Vec<u64>> {
-        let WorldSpec::Coverage(CoverageSpec { observes: SurfaceView::Cells, .. }) = &self.world else { return None };
+        self.world.properties().surface.filter(|surface| surface.cells_seen)?;
         let bits = |word: &[f64]| word.iter().rev().fold(0, |bits, cell| bits << 1 | u64::from(*cell > 0.5));
         Some(values[1..].chunks(64).map(bits).collect())
     }

@@ -1,7 +1,6 @@
 //! A cell's runs reduced to the numbers of a table, and comparisons of two cells.
 
 use super::{Cell, Experiment, InvalidRule, PairedComparison, RunRow, Summary, compare};
-use crate::world::WorldSpec;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -50,9 +49,7 @@ fn value(row: &RunRow, cell: &Cell, quantity: Quantity) -> Option<f64> {
     match quantity {
         Quantity::Evaluations => Some(row.evaluations as f64),
         Quantity::Discrepancy => Some(counted_as.unwrap_or(row.discrepancy)),
-        Quantity::Painted if counted_as.is_some() => {
-            matches!(cell.problem.world, WorldSpec::Coverage(_)).then_some(0.0)
-        }
+        Quantity::Painted if counted_as.is_some() => cell.problem.world.properties().surface.is_some().then_some(0.0),
         Quantity::Painted => row.painted_percent,
     }
 }

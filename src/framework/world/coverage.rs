@@ -1,6 +1,6 @@
 //! The coverage world (the paper's paint): the cells of a grid that the tool has come close to.
 
-use super::{CoverageSpec, SurfaceView, World, WorldError};
+use super::{CoverageSpec, Surface, SurfaceView, World, WorldError};
 use crate::Feature;
 use crate::robot::{Chain, tool_position};
 use nalgebra::Vector3;
@@ -21,6 +21,16 @@ pub(super) struct Coverage {
     radius_squared: f64,
     painted: Vec<u64>,
     count: usize,
+}
+
+/// The surface and what is known of it.
+pub(super) fn surface(spec: &CoverageSpec) -> Surface {
+    Surface {
+        columns: spec.columns as usize,
+        rows: spec.rows as usize,
+        resets: spec.resets,
+        cells_seen: spec.observes == SurfaceView::Cells,
+    }
 }
 
 /// Features of a coverage world: the percentage, followed by the cells if they are observed.

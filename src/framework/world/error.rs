@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WorldError {
     /// The unit is unknown.
-    #[error("unit of a tool position is {found:?}: use \"m\" or \"mm\"")]
+    #[error("unit is {found:?}: use \"m\" or \"mm\"")]
     Unit {
         /// Unit given.
         found: String,

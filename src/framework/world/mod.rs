@@ -6,6 +6,7 @@
 
 mod coverage;
 mod error;
+mod properties;
 mod real;
 mod spec;
 #[cfg(test)]
@@ -13,6 +14,7 @@ mod tests;
 mod tool_position;
 
 pub use error::WorldError;
+pub use properties::{Surface, WorldProperties};
 pub use real::{RealitySpec, build_real};
 pub use spec::{CoverageSpec, SurfaceView, ToolPositionSpec, WorldSpec};
 
@@ -49,6 +51,25 @@ pub fn build(spec: &WorldSpec, chain: &Chain) -> Result<Box<dyn World>, WorldErr
         WorldSpec::ToolPosition(spec) => Box::new(tool_position::ToolPosition::new(spec, chain)?),
         WorldSpec::Coverage(spec) => Box::new(coverage::Coverage::new(spec, chain)?),
     })
+}
+
+impl WorldSpec {
+    /// What can be relied on in this world.
+    #[must_use]
+    pub fn properties(&self) -> WorldProperties {
+        match self {
+            Self::ToolPosition(_) => WorldProperties { smooth: true, surface: None },
+            Self::Coverage(spec) => WorldProperties { smooth: false, surface: Some(coverage::surface(spec)) },
+        }
+    }
+
+    /// The description of the surface, to be changed; `None` if the world has none.
+    pub fn surface_mut(&mut self) -> Option<&mut CoverageSpec> {
+        match self {
+            Self::Coverage(spec) => Some(spec),
+            Self::ToolPosition(_) => None,
+        }
+    }
 }
 
 /// The features a world of that description shows, without building it.

@@ -15,21 +15,25 @@ pub(super) struct ToolPosition {
 
 /// Features of a tool-position world.
 pub(super) fn features(spec: &ToolPositionSpec) -> Result<[Feature; 3], WorldError> {
-    scale(spec)?;
+    scale(&spec.unit)?;
     Ok(["x", "y", "z"].map(|name| Feature::new(name, spec.unit.as_str())))
 }
 
-fn scale(spec: &ToolPositionSpec) -> Result<f64, WorldError> {
-    match spec.unit.as_str() {
+/// Features' unit per metre.
+///
+/// # Errors
+/// [`WorldError::Unit`] if the unit is not a length.
+pub(super) fn scale(unit: &str) -> Result<f64, WorldError> {
+    match unit {
         "m" => Ok(1.0),
         "mm" => Ok(1000.0),
-        _ => Err(WorldError::Unit { found: spec.unit.clone() }),
+        _ => Err(WorldError::Unit { found: unit.to_owned() }),
     }
 }
 
 impl ToolPosition {
     pub(super) fn new(spec: &ToolPositionSpec, chain: &Chain) -> Result<Self, WorldError> {
-        Ok(Self { chain: chain.clone(), features: features(spec)?, scale: scale(spec)? })
+        Ok(Self { chain: chain.clone(), features: features(spec)?, scale: scale(&spec.unit)? })
     }
 }
 

@@ -114,6 +114,6 @@ function WorldTable({ worlds }: { worlds: World[] }) {
 }
 
 function details({ spec }: World): string {
-  if (spec.kind === "tool_position") return "position of the tool";
+  if (spec.kind !== "coverage") return "no surface";
   return `${spec.columns} × ${spec.rows} cells, reach ${formatNumber(spec.radius_m)} m`;
 }

@@ -1,0 +1,40 @@
+//! The properties of a world that are asked for in place of its kind: a new kind answers once, and every method, result
+//! and page that asks is right about it.
+
+/// What can be relied on in a world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WorldProperties {
+    /// Whether the features follow the pose without jumps.
+    pub smooth: bool,
+    /// The surface over which effects accumulate; `None` if they do not.
+    pub surface: Option<Surface>,
+}
+
+/// A surface whose cells are covered one after another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Surface {
+    /// Number of columns.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// Whether it can be put back between trials.
+    pub resets: bool,
+    /// Whether the covered cells are seen, not only their share.
+    pub cells_seen: bool,
+}
+
+impl Surface {
+    /// Number of cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.columns * self.rows
+    }
+}
+
+impl WorldProperties {
+    /// Whether the world can be put back as it was before a trial.
+    #[must_use]
+    pub fn resets(&self) -> bool {
+        self.surface.is_none_or(|surface| surface.resets)
+    }
+}
