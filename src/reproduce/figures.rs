@@ -1,6 +1,6 @@
-//! The paper's figures from the runs of its tables.
+//! The paper's figures, drawn from the runs of its tables.
 //!
-//! Figures 5 and 7 show one run: of each cell the one whose discrepancy is the median, so that neither luck nor
+//! Figures 5 and 7 show a single run: the one of each cell with the median discrepancy, so that neither luck nor
 //! misfortune is drawn.
 
 use super::figure::{
@@ -15,7 +15,7 @@ use crate::framework::generalization::{GeneralizeError, GeneralizeSpec, RbfError
 use crate::framework::robot::{Chain, RobotModel};
 use crate::framework::world;
 
-/// The wax demonstrations of the examples, synthetic: the paper's own were not published.
+/// The synthetic wax demonstrations of the examples; the paper's own were not published.
 const WAX: [(&str, &str); 4] = [
     ("demo-1", include_str!("../../examples/demonstrations/wax/demo-1.csv")),
     ("demo-2", include_str!("../../examples/demonstrations/wax/demo-2.csv")),
@@ -26,46 +26,46 @@ const WAX: [(&str, &str); 4] = [
 /// T_min that gives the nine goals of the paper's wax, s.
 const WAX_T_MIN_S: f64 = 1.0;
 
-/// Points of an interpolated curve.
+/// Number of points of an interpolated curve.
 const CURVE_POINTS: usize = 400;
 
-/// Why there is no figure.
+/// Reasons why a figure cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum PaperFigureError {
-    /// A shipped demonstration is refused.
-    #[error("figure 2: demonstration {name} is refused: {findings:?}")]
+    /// A shipped demonstration was rejected.
+    #[error("figure 2: demonstration {name} is rejected: {findings:?}")]
     Demonstration {
-        /// Its name.
+        /// Name of the demonstration.
         name: &'static str,
-        /// Why.
+        /// Findings that reject it.
         findings: Vec<Finding>,
     },
-    /// The demonstrations do not generalize.
+    /// The demonstrations cannot be generalized.
     #[error("figure 2: {0}")]
     Generalize(#[from] GeneralizeError),
-    /// The goals have no curve.
+    /// The goals cannot be interpolated.
     #[error("figure 2: {0}")]
     Curve(#[from] RbfError),
-    /// A run shown failed.
+    /// A run to be shown failed.
     #[error("{0}")]
     Run(#[from] RunError),
-    /// A run's world cannot be rebuilt.
+    /// The world of a run cannot be rebuilt.
     #[error("{0}")]
     Problem(#[from] Box<ProblemError>),
-    /// The drawing itself.
+    /// The drawing failed.
     #[error("{0}")]
     Figure(#[from] FigureError),
-    /// No finished run of a table the figure needs.
+    /// A table needed for the figure has no finished run.
     #[error("figure {figure} needs finished runs of table {table}: run the whole experiment")]
     Missing {
-        /// The figure.
+        /// Number of the figure.
         figure: u8,
-        /// The table.
+        /// Number of the table.
         table: u8,
     },
 }
 
-/// The demonstrations figure 2 shows.
+/// Demonstrations shown in figure 2.
 fn wax_demonstrations() -> Result<Vec<Demonstration>, PaperFigureError> {
     let read_one = |(name, text): &(&'static str, &str)| {
         let options = ReadOptions { name: Some((*name).to_owned()), ..ReadOptions::default() };
@@ -75,15 +75,15 @@ fn wax_demonstrations() -> Result<Vec<Demonstration>, PaperFigureError> {
     WAX.iter().map(read_one).collect()
 }
 
-/// Figure 2: `demonstrations` in grey and what they generalize to.
+/// Figure 2: `shown` demonstrations in grey and their generalization.
 ///
 /// # Errors
-/// [`PaperFigureError`] if they do not generalize.
+/// [`PaperFigureError`] if they cannot be generalized.
 pub fn figure_2(shown: &[Demonstration], spec: &GeneralizeSpec) -> Result<String, PaperFigureError> {
     let generalized = generalize(shown, spec)?;
     let curve = interpolate(&generalized.goals, CURVE_POINTS, &RbfSpec::default())?;
     let (mean_s, n) = (generalized.mean_duration_s, generalized.goals.len());
-    // Goals stand for the middle of their bin; the curve runs from the first to the last.
+    // A goal stands for the middle of its bin; the curve runs from the first to the last.
     let first_s = mean_s / (2 * n) as f64;
     let spread = |count: usize, k: usize| {
         let share = if count > 1 { k as f64 / (count - 1) as f64 } else { 0.5 };
@@ -99,7 +99,7 @@ pub fn figure_2(shown: &[Demonstration], spec: &GeneralizeSpec) -> Result<String
     Ok(demonstrations(&title, &features.collect::<Vec<_>>())?)
 }
 
-/// The samples of one feature, time stretched to `mean_s`.
+/// The samples of one feature, with time scaled to `mean_s`.
 fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64, f64)> {
     let find = |stream: &&Stream| stream.features().iter().any(|f| f.name == feature);
     let Some(stream) = demonstration.streams.iter().find(find) else { return Vec::new() };
@@ -109,11 +109,11 @@ fn scaled(demonstration: &Demonstration, feature: &str, mean_s: f64) -> Vec<(f64
     (0..stream.len()).map(sample).collect()
 }
 
-/// Figures 2 and 4 to 10 by number, from `experiment`, which ran all six tables. Which table 8, 9 and 10 draw is
-/// inferred from the tables.
+/// Figures 2 and 4 to 10 by number, from `experiment`, which ran all six tables. Which tables figures 8, 9 and 10 draw
+/// is inferred from the tables.
 ///
 /// # Errors
-/// [`PaperFigureError`] if a run cannot be repeated or a figure not be drawn.
+/// [`PaperFigureError`] if a run cannot be repeated or a figure cannot be drawn.
 pub fn figures(experiment: &Experiment, cells: &[PaperCell]) -> Result<Vec<(u8, String)>, PaperFigureError> {
     let curves = |table: u8| panel(experiment, cells, table);
     let what = "evaluations until each goal is done";

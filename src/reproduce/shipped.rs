@@ -2,13 +2,13 @@
 
 use crate::framework::preset::{Preset, PresetError, parse};
 
-/// Why there is no such shipped preset.
+/// Reason why there is no such shipped preset.
 #[derive(Debug, thiserror::Error)]
 pub enum ShippedError {
-    /// No shipped preset has that name.
-    #[error("no preset is named {name:?}; shipped are {shipped:?}; a path to a TOML file is taken too")]
+    /// There is no shipped preset of that name.
+    #[error("there is no preset {name:?}: use one of {shipped:?}, or the path of a TOML file")]
     Unknown {
-        /// The name given.
+        /// Name given.
         name: String,
         /// Names of the shipped presets.
         shipped: Vec<&'static str>,
