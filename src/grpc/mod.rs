@@ -34,7 +34,7 @@ use proto::world_service_server::WorldServiceServer;
 use tonic::service::Routes;
 use tonic::service::interceptor::InterceptedService;
 
-/// What the edge itself may be told.
+/// Settings of this edge.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Most bytes of one upload, over all its messages.
@@ -54,7 +54,7 @@ impl Default for Settings {
 /// All services, for the router they share with HTTP.
 ///
 /// # Errors
-/// When the descriptors that the build wrote cannot be read.
+/// Unreadable descriptors from the build.
 pub fn routes(app: App, access: Access, settings: &Settings) -> Result<Routes, tonic_reflection::server::Error> {
     let guard = auth::Guard(access);
     let limit = settings.message_limit_bytes;

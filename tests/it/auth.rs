@@ -1,8 +1,9 @@
 //! Authentication over both protocols.
 
 use super::clients::{Grpc, Http, send};
+use super::parity::messages::{pool, rpcs};
 use super::server::Server;
-use cgda::grpc::proto;
+use prost_reflect::DynamicMessage;
 use reqwest::Method;
 use tonic::Code;
 
@@ -54,9 +55,14 @@ async fn the_printed_address_opens_the_dashboard_with_a_cookie() {
 #[tokio::test]
 async fn grpc_needs_the_token_too_and_unknown_methods_are_unimplemented() {
     let server = Server::start();
-    let mut stranger = Grpc::with_token(&server, "wrong").await;
-    let status = stranger.jobs.list_jobs(proto::ListJobsRequest::default()).await.unwrap_err();
-    assert_eq!(status.code(), Code::Unauthenticated);
+    let (owner, stranger) = (Grpc::new(&server).await, Grpc::with_token(&server, "wrong").await);
+    for rpc in rpcs(&pool()) {
+        let empty = || DynamicMessage::new(rpc.input());
+        let code = stranger.call(&rpc, empty()).await.unwrap_err().code();
+        assert_eq!(code, Code::Unauthenticated, "{}", rpc.full_name());
+        let code = owner.call(&rpc, empty()).await.map_or_else(|status| status.code(), |_| Code::Ok);
+        assert_ne!(code, Code::Unimplemented, "{}", rpc.full_name());
+    }
     let http = Http::new(&server);
     for (token, expected) in [("wrong", "16"), (server.token.as_str(), "12")] {
         let call = http.bare(Method::POST, "/cgda.v1.NoService/Call").header("content-type", "application/grpc");

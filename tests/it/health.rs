@@ -1,6 +1,7 @@
 //! gRPC health agrees with `/readyz`.
 
 use super::clients::{Http, send};
+use super::parity::messages::{pool, rpcs};
 use super::server::Server;
 use reqwest::Method;
 use tonic::Code;
@@ -16,8 +17,9 @@ async fn health_follows_readiness_for_the_server_and_each_service() {
     let mut health = HealthClient::new(endpoint.connect().await.unwrap());
     let ask = |service: &str| HealthCheckRequest { service: service.to_owned() };
     send(Http::new(&server).bare(Method::GET, "/readyz")).await.expect(200);
-    for name in ["", "cgda.v1.JobService", "cgda.v1.TrajectoryService"] {
-        assert_eq!(health.check(ask(name)).await.unwrap().into_inner().status(), ServingStatus::Serving, "{name}");
+    let services = rpcs(&pool()).into_iter().map(|rpc| rpc.parent_service().full_name().to_owned());
+    for name in services.chain([String::new()]) {
+        assert_eq!(health.check(ask(&name)).await.unwrap().into_inner().status(), ServingStatus::Serving, "{name}");
     }
     assert_eq!(health.check(ask("cgda.v1.Nobody")).await.unwrap_err().code(), Code::NotFound);
     let mut changes = health.watch(ask("")).await.unwrap().into_inner();

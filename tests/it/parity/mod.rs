@@ -3,7 +3,7 @@
 
 mod descriptions;
 mod limits;
-mod messages;
+pub mod messages;
 mod rest;
 mod rules;
 mod shape;

@@ -1,5 +1,5 @@
-//! How the two protocols say the same differently, and what one of them says alone, each with its reason. An entry that
-//! no longer applies fails the tests, so these tables cannot grow stale.
+//! Tables of how the two protocols say the same thing differently, and of what only one of them says, each with its
+//! reason. An exception that no longer applies fails the tests, so these tables cannot grow stale.
 
 /// Operations of REST without an rpc of ours.
 pub const REST_ONLY_OPERATIONS: &[(&str, &str)] = &[

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Reads that are compared elsewhere: events below, files byte by byte.
 const OTHERWISE: &[&str] = &["watchJob"];
 
-/// How two documents differ, by place.
+/// Collects the differences of two documents, by place.
 pub fn differences(place: &str, rest: &Value, grpc: &Value, found: &mut Vec<String>) {
     match (rest, grpc) {
         (Value::Object(rest), Value::Object(grpc)) => {
