@@ -1,4 +1,4 @@
-// The methods a job can be given, in words.
+// The methods that a job can use, described for people.
 
 import type { World } from "../../api/types";
 
@@ -7,11 +7,11 @@ export type MethodName = "auto" | "model" | "particle" | "search" | "broyden" | 
 export interface Method {
   name: MethodName;
   label: string;
-  /** What it does and when it is the right one. */
+  /** Purpose, and when to use it. */
   explanation: string;
-  /** The only kind of world it works in; any when absent. */
+  /** The only kind of world it works in; any if absent. */
   world?: World["spec"]["kind"];
-  /** It decides every trial of the whole run, and each one counts: made for a real robot. */
+  /** Whether it needs few evaluations, because it decides every trial of the whole run: made for a real robot. */
   few: boolean;
 }
 
@@ -19,14 +19,14 @@ export const METHODS: readonly Method[] = [
   {
     name: "auto",
     label: "Automatic",
-    explanation: "Chosen for the features, the world and the constraints when the job is submitted, which tells the choice and why.",
+    explanation: "Chosen for the features, the world and the constraints when the job is submitted; the choice and its reason are recorded.",
     few: false,
   },
   {
     name: "model",
     label: "MODEL-IET",
     explanation:
-      "A dozen evaluations. Learns from each trial what the joints do to the features, and tries next the pose it expects nearest to a goal. It knows when a goal is out of reach and says how near it came.",
+      "A dozen evaluations. Learns from each trial how the joints affect the features, then tries the pose expected closest to a goal. A goal out of reach is reported with its best residual.",
     world: "tool_position",
     few: true,
   },
@@ -34,7 +34,7 @@ export const METHODS: readonly Method[] = [
     name: "particle",
     label: "PARTICLE-IET",
     explanation:
-      "About one evaluation a cell. Takes the described robot as an uncertain simulator: many slightly different robots vote for the next pose, and each trial tells which of them are wrong.",
+      "About one evaluation per cell. Uses the described robot as an uncertain simulator: many slightly different robots vote for the next pose, and each trial reweights them.",
     world: "coverage",
     few: true,
   },
@@ -42,21 +42,21 @@ export const METHODS: readonly Method[] = [
     name: "search",
     label: "SEARCH-IET",
     explanation:
-      "Nothing is known but the percentage seen: it searches where no trial has been near yet, and more where trials gained. Takes some four times as many evaluations as PARTICLE-IET.",
+      "Needs no description of the robot: searches where no trial has been close yet, preferably near trials that gained something. Takes about four times as many evaluations as PARTICLE-IET.",
     world: "coverage",
     few: true,
   },
   {
     name: "broyden",
     label: "Broyden",
-    explanation: "Gauss-Newton with an estimated Jacobian, a classical yardstick: few evaluations where it converges, with some bad runs.",
+    explanation: "Gauss-Newton with an estimated Jacobian, a classical baseline: few evaluations if it converges, with some bad runs.",
     world: "tool_position",
     few: false,
   },
   {
     name: "cma_es",
     label: "CMA-ES",
-    explanation: "An evolution strategy, a yardstick known everywhere: hundreds of evaluations, begun at the previous goal's result.",
+    explanation: "An evolution strategy and standard baseline: hundreds of evaluations, starting from the previous goal's result.",
     few: false,
   },
   {
@@ -71,7 +71,7 @@ export function methodNamed(name: MethodName): Method | undefined {
   return METHODS.find((method) => method.name === name);
 }
 
-/** The methods that work in a world; all while it is not chosen. */
+/** The methods that work in a world; all of them until one is chosen. */
 export function methodsFor(world: World | undefined): readonly Method[] {
   return METHODS.filter((method) => world === undefined || method.world === undefined || method.world === world.spec.kind);
 }
