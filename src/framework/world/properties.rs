@@ -1,7 +1,7 @@
 //! The properties of a world that are asked for in place of its kind: a new kind answers once, and every method, result
 //! and page that asks is right about it.
 
-/// What can be relied on in a world.
+/// Properties of a world that methods and jobs may rely on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WorldProperties {
     /// Whether the features follow the pose without jumps.
@@ -17,14 +17,14 @@ pub struct Surface {
     pub columns: usize,
     /// Number of rows.
     pub rows: usize,
-    /// Whether it can be put back between trials.
+    /// Whether it can be reset between trials.
     pub resets: bool,
     /// Whether the covered cells are seen, not only their share.
     pub cells_seen: bool,
 }
 
 impl Surface {
-    /// Number of cells.
+    /// Number of cells of the surface.
     #[must_use]
     pub fn cells(&self) -> usize {
         self.columns * self.rows
@@ -32,7 +32,7 @@ impl Surface {
 }
 
 impl WorldProperties {
-    /// Whether the world can be put back as it was before a trial.
+    /// Whether the world can be reset to its state before a trial.
     #[must_use]
     pub fn resets(&self) -> bool {
         self.surface.is_none_or(|surface| surface.resets)
