@@ -195,6 +195,24 @@ fn files_are_short() {
     );
 }
 
+/// Whether code leaves fields out with `..`: in a pattern, or filled in from a default.
+fn leaves_fields_out(code: &str) -> bool {
+    code.contains(", ..") || code.contains("{ .. }") || code.trim_start().starts_with("..")
+}
+
+#[test]
+fn grpc_conversions_name_every_field() {
+    let mut violations = Vec::new();
+    for (file, text) in sources(&["src/grpc/convert"], &["rs"]) {
+        let converting = text.split("#[cfg(test)]").next().unwrap_or(&text);
+        let hits = code_lines(converting).filter(|(_, code)| leaves_fields_out(code));
+        violations.extend(hits.map(|(line, code)| format!("{file}:{line}: {}", code.trim())));
+    }
+    report("fields that a conversion leaves out, so that a new one would be forgotten", &violations);
+    assert!(leaves_fields_out("let Trial { joints, .. } = trial;") && leaves_fields_out("    ..Trial::default()"));
+    assert!(!leaves_fields_out("let Trial { joints, goal } = trial;"));
+}
+
 #[test]
 fn every_module_says_what_it_is() {
     let without = sources(&["src", "tests", "benches"], &["rs"]).into_iter();

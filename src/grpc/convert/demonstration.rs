@@ -10,6 +10,7 @@ use crate::framework::Feature;
 use crate::framework::demonstration::Finding;
 use crate::grpc::proto;
 use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
 
 /// Display name and options of an upload.
 ///
@@ -22,8 +23,9 @@ pub fn header(header: proto::UploadHeader) -> Result<(Option<String>, UploadOpti
         clock_policy: choice("/clock_policy", clock_policy)?.unwrap_or_default(),
         time_column: text(time_column),
         features: features.into_iter().map(|name| Feature::new(name, "")).collect(),
+        // Each stream of an upload over gRPC has the same features, as over HTTP.
+        stream_features: BTreeMap::new(),
         units,
-        ..UploadOptions::default()
     };
     Ok((text(name), options))
 }
