@@ -1,7 +1,7 @@
 //! The paper's Table 1 as an experiment over REST, killed twice on the way: the result equals the command line's table
 //! to the last digit.
 
-use super::server::{Server, events};
+use super::server::{PATIENCE, Server, events};
 use serde_json::{Value, json};
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -26,7 +26,7 @@ async fn reached(server: &Server, at: &str, runs: u64) -> u64 {
         if finished >= runs {
             return finished;
         }
-        assert!(started.elapsed() < Duration::from_mins(3), "{finished} of {runs} runs");
+        assert!(started.elapsed() < PATIENCE, "{finished} of {runs} runs");
         tokio::time::sleep(Duration::from_millis(10)).await;
     }
 }
@@ -76,11 +76,7 @@ async fn a_paused_experiment_rests_goes_on_and_shows_rows_comparisons_and_files(
     let at = format!("/api/v1/experiments/{name}");
     reached(&server, &at, 1).await;
     server.post(&format!("/api/v1/jobs/{id}:pause"), &json!({})).await;
-    let started = Instant::now();
-    while server.get(&at).await["state"] != "PAUSED" {
-        assert!(started.elapsed() < Duration::from_secs(30), "it does not rest");
-        tokio::time::sleep(Duration::from_millis(10)).await;
-    }
+    server.until(id, |view| view["state"] == "PAUSED").await;
     let resting = server.get(&at).await;
     tokio::time::sleep(Duration::from_millis(300)).await;
     assert_eq!(server.get(&at).await, resting);

@@ -1,8 +1,9 @@
 //! 20 jobs run while the server is killed 10 times: every job ends exactly once, with the bits of an undisturbed
 //! server.
 
-use super::server::{Server, digests, events};
+use super::server::{PATIENCE, Server, digests, events};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 const JOBS: u64 = 20;
@@ -38,6 +39,34 @@ async fn reference() -> Vec<Vec<String>> {
     found
 }
 
+/// Evaluations of each running job by its id.
+async fn running(server: &Server) -> BTreeMap<String, u64> {
+    let list = server.get("/api/v1/jobs?page_size=100").await;
+    let running = list["items"].as_array().unwrap().iter().filter(|job| job["state"] == "RUNNING");
+    let counted =
+        running.map(|job| (job["id"].as_str().unwrap(), job["progress"]["total_evaluations"].as_u64().unwrap()));
+    counted.map(|(id, evaluations)| (id.to_owned(), evaluations)).collect()
+}
+
+/// Waits until jobs run and each of them has reached a checkpoint: a kill then meets some, and none is killed again and
+/// again before its first checkpoint, after which it would count as the reason of the crashes.
+async fn checkpointed(server: &Server) {
+    let started = Instant::now();
+    let mut before = running(server).await;
+    loop {
+        tokio::time::sleep(Duration::from_millis(10)).await;
+        let now = running(server).await;
+        for (id, evaluations) in &now {
+            // A job that began meanwhile has to move, too.
+            before.entry(id.clone()).or_insert(*evaluations);
+        }
+        if !now.is_empty() && now.iter().all(|(id, evaluations)| *evaluations > before[id]) {
+            return;
+        }
+        assert!(started.elapsed() < PATIENCE, "no checkpoint of every running job: {before:?}, {now:?}");
+    }
+}
+
 #[tokio::test]
 async fn ten_kills_lose_no_job_double_none_and_change_no_bit() {
     let expected = reference().await;
@@ -47,8 +76,9 @@ async fn ten_kills_lose_no_job_double_none_and_change_no_bit() {
     let jobs = submit(&server, &named, true).await;
     let started = Instant::now();
     for kill in 0..KILLS {
+        checkpointed(&server).await;
         // At varying points of the jobs' cycle of slices and checkpoints.
-        tokio::time::sleep(Duration::from_millis(350 + u64::from(kill * 97 % 230))).await;
+        tokio::time::sleep(Duration::from_millis(u64::from(kill * 97 % 230))).await;
         server.kill();
         server = Server::start(data.path());
     }

@@ -6,6 +6,9 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+/// Longest wait for anything a server is expected to do; an idle machine needs seconds.
+pub const PATIENCE: Duration = Duration::from_mins(5);
+
 /// A running server; killed on drop.
 pub struct Server {
     child: Child,
@@ -75,17 +78,27 @@ impl Server {
         serde_json::from_str(&text).unwrap()
     }
 
-    /// Waits until the job is in a final state.
-    pub async fn ended(&self, job: &str) -> Value {
+    /// Waits until what is shown of a job meets `condition`.
+    pub async fn until(&self, job: &str, condition: impl Fn(&Value) -> bool) -> Value {
         let started = Instant::now();
         loop {
             let view = self.get(&format!("/api/v1/jobs/{job}")).await;
-            if ["SUCCEEDED", "FAILED", "CANCELLED"].contains(&view["state"].as_str().unwrap()) {
+            if condition(&view) {
                 return view;
             }
-            assert!(started.elapsed() < Duration::from_mins(1), "{job} does not end: {view}");
-            tokio::time::sleep(Duration::from_millis(20)).await;
+            assert!(started.elapsed() < PATIENCE, "{job} does not get there: {view}");
+            tokio::time::sleep(Duration::from_millis(10)).await;
         }
+    }
+
+    /// Waits until the job is in a final state.
+    pub async fn ended(&self, job: &str) -> Value {
+        self.until(job, |view| ["SUCCEEDED", "FAILED", "CANCELLED"].contains(&view["state"].as_str().unwrap())).await
+    }
+
+    /// Waits until the job has made that many evaluations.
+    pub async fn evaluated(&self, job: &str, least: u64) {
+        self.until(job, |view| view["progress"]["total_evaluations"].as_u64().unwrap() >= least).await;
     }
 
     /// Uploads a demonstration.

@@ -14,9 +14,9 @@ async fn a_terminated_server_exits_soon_and_its_job_goes_on_with_the_same_bits()
     let alone = server.ended(alone["id"].as_str().unwrap()).await;
     let expected = digests(&server, &alone).await;
 
-    request["max_evaluations_per_s"] = json!(500.0);
+    request["max_evaluations_per_s"] = json!(200.0);
     let job = server.post("/api/v1/jobs", &request).await["id"].as_str().unwrap().to_owned();
-    tokio::time::sleep(Duration::from_millis(700)).await;
+    server.evaluated(&job, 1).await;
     let (took, well) = server.terminate();
     assert!(well && took < Duration::from_secs(10), "{took:?}");
 
@@ -36,23 +36,12 @@ async fn a_paused_job_rests_and_goes_on_with_the_same_bits_and_a_cancelled_one_e
     let alone = server.ended(alone["id"].as_str().unwrap()).await;
     let expected = digests(&server, &alone).await;
 
-    request["max_evaluations_per_s"] = json!(1000.0);
+    request["max_evaluations_per_s"] = json!(300.0);
     let job = server.post("/api/v1/jobs", &request).await["id"].as_str().unwrap().to_owned();
     let at = format!("/api/v1/jobs/{job}");
-    let in_state = async |state: &str| {
-        for _ in 0..500 {
-            let view = server.get(&at).await;
-            if view["state"] == state {
-                return view;
-            }
-            tokio::time::sleep(Duration::from_millis(10)).await;
-        }
-        panic!("{job} does not get {state}");
-    };
-    in_state("RUNNING").await;
-    tokio::time::sleep(Duration::from_millis(300)).await;
+    server.evaluated(&job, 1).await;
     server.post(&format!("{at}:pause"), &json!({})).await;
-    let resting = in_state("PAUSED").await;
+    let resting = server.until(&job, |view| view["state"] == "PAUSED").await;
     tokio::time::sleep(Duration::from_millis(400)).await;
     let later = server.get(&at).await;
     assert_eq!(later["progress"], resting["progress"]);
@@ -64,7 +53,7 @@ async fn a_paused_job_rests_and_goes_on_with_the_same_bits_and_a_cancelled_one_e
 
     request["max_evaluations_per_s"] = json!(10.0);
     let job = server.post("/api/v1/jobs", &request).await["id"].as_str().unwrap().to_owned();
-    tokio::time::sleep(Duration::from_millis(300)).await;
+    server.evaluated(&job, 1).await;
     server.post(&format!("/api/v1/jobs/{job}:cancel"), &json!({})).await;
     assert_eq!(server.ended(&job).await["state"], "CANCELLED");
 }

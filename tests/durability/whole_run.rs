@@ -2,7 +2,6 @@
 
 use super::server::{Server, digests, events};
 use serde_json::{Value, json};
-use std::time::{Duration, Instant};
 
 /// Creates an action of seven steps of the painted percentage, and a wall; returns the fields an execution needs.
 async fn paint(server: &Server, wax: &Value) -> Value {
@@ -28,19 +27,6 @@ async fn submit(server: &Server, named: &Value, execution: &Value, rate: Option<
     job["id"].as_str().unwrap().to_owned()
 }
 
-/// Waits until the job has made at least that many evaluations.
-async fn evaluated(server: &Server, job: &str, least: u64) {
-    let started = Instant::now();
-    loop {
-        let view = server.get(&format!("/api/v1/jobs/{job}")).await;
-        if view["progress"]["evaluations"].as_u64().unwrap() >= least {
-            return;
-        }
-        assert!(started.elapsed() < Duration::from_mins(1), "{job} does not begin: {view}");
-        tokio::time::sleep(Duration::from_millis(20)).await;
-    }
-}
-
 #[tokio::test]
 async fn a_kill_in_the_middle_changes_no_bit_of_a_method_that_owns_the_run() {
     let data = tempfile::tempdir().unwrap();
@@ -62,7 +48,7 @@ async fn a_kill_in_the_middle_changes_no_bit_of_a_method_that_owns_the_run() {
         assert!(evaluations >= 6, "{evaluations} evaluations have no middle");
 
         let killed = submit(&server, named, execution, Some(*rate)).await;
-        evaluated(&server, &killed, 3).await;
+        server.evaluated(&killed, 3).await;
         server.kill();
         server = Server::start(data.path());
         let ended = server.ended(&killed).await;

@@ -2,7 +2,7 @@
 
 use super::clients::{Http, send};
 use super::server::Server;
-use super::work::{digests, ended, finished, job, prepare};
+use super::work::{begun, digests, ended, finished, job, prepare, until};
 use reqwest::Method;
 use serde_json::{Value, json};
 
@@ -53,17 +53,11 @@ async fn a_paused_job_rests_goes_on_and_ends_with_the_same_digest() {
     let plain = http.post("/jobs", &job(&made, 4, 1)).await.expect(202).text("/id").to_owned();
     finished(&http, &plain).await;
     let mut slow = job(&made, 4, 1);
-    slow["max_evaluations_per_s"] = json!(500.0);
+    slow["max_evaluations_per_s"] = json!(200.0);
     let id = http.post("/jobs", &slow).await.expect(202).text("/id").to_owned();
-    tokio::time::sleep(std::time::Duration::from_millis(300)).await;
+    begun(&http, &id).await;
     http.post(&format!("/jobs/{id}:pause"), &Value::Null).await.expect(200);
-    for _ in 0..100 {
-        if http.get(&format!("/jobs/{id}")).await.text("/state") == "PAUSED" {
-            break;
-        }
-        tokio::time::sleep(std::time::Duration::from_millis(50)).await;
-    }
-    assert_eq!(http.get(&format!("/jobs/{id}")).await.text("/state"), "PAUSED");
+    until(&http, &id, |job| job.text("/state") == "PAUSED").await;
     http.post(&format!("/jobs/{id}:pause"), &Value::Null).await.expect(409);
     http.post(&format!("/jobs/{id}:resume"), &Value::Null).await.expect(200);
     finished(&http, &id).await;

@@ -3,7 +3,7 @@
 use super::clients::Http;
 use super::events::read_events;
 use super::server::Server;
-use super::work::{digests, ended, finished, job, prepare};
+use super::work::{begun, digests, ended, finished, job, prepare};
 use serde_json::{Value, json};
 
 #[tokio::test]
@@ -66,9 +66,9 @@ async fn a_job_killed_with_its_server_ends_with_the_same_digests() {
     let expected = digests(&http, &plain).await;
 
     let mut slow = job(&made, 11, 2);
-    slow["max_evaluations_per_s"] = json!(400.0);
+    slow["max_evaluations_per_s"] = json!(200.0);
     let slow = http.post("/jobs", &slow).await.expect(202).text("/id").to_owned();
-    tokio::time::sleep(std::time::Duration::from_millis(700)).await;
+    begun(&http, &slow).await;
     let server = server.kill_and_restart();
     let http = Http::new(&server);
     let job = ended(&http, &slow).await;

@@ -3,7 +3,7 @@
 use super::clients::{Answer, Http, send};
 use reqwest::Method;
 use serde_json::{Value, json};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The shipped demonstrations of waxing, in order.
 pub fn demonstrations() -> Vec<(String, Vec<u8>)> {
@@ -80,14 +80,25 @@ pub async fn finished(http: &Http, id: &str) -> Answer {
 
 /// Waits until the job is final.
 pub async fn ended(http: &Http, id: &str) -> Answer {
-    for _ in 0..600 {
+    until(http, id, |job| ["SUCCEEDED", "FAILED", "CANCELLED"].contains(&job.text("/state"))).await
+}
+
+/// The job once it has made an evaluation.
+pub async fn begun(http: &Http, id: &str) -> Answer {
+    until(http, id, |job| job.json["progress"]["total_evaluations"].as_u64().unwrap() > 0).await
+}
+
+/// The job once `condition` holds; an idle machine needs seconds, the limit is for the busiest.
+pub async fn until(http: &Http, id: &str, condition: impl Fn(&Answer) -> bool) -> Answer {
+    let started = Instant::now();
+    loop {
         let job = http.get(&format!("/jobs/{id}")).await.expect(200);
-        if ["SUCCEEDED", "FAILED", "CANCELLED"].contains(&job.text("/state")) {
+        if condition(&job) {
             return job;
         }
-        tokio::time::sleep(Duration::from_millis(100)).await;
+        assert!(started.elapsed() < Duration::from_mins(5), "it does not get there: {}", job.text);
+        tokio::time::sleep(Duration::from_millis(20)).await;
     }
-    panic!("job {id} did not end within a minute");
 }
 
 /// Digests of a job's runs, by repetition.
