@@ -18,7 +18,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("app", &["app", "framework", "reproduce"]),
     ("store", &["store", "app", "framework"]),
     ("evaluate", &["evaluate", "app", "framework"]),
-    ("jobs", &["jobs", "app", "framework", "evaluate"]),
+    ("jobs", &["jobs", "app", "framework", "reproduce"]),
     ("http", &["http", "app", "framework"]),
     ("grpc", &["grpc", "app", "framework"]),
     ("config", &["config"]),

@@ -5,6 +5,7 @@ mod demo;
 use crate::app::ports::LocalEvents;
 use crate::app::{Access, App, Ports};
 use crate::config::{Config, Flags, LogFormat, ServerConfig};
+use crate::evaluate::{PacedEvaluators, Simulations};
 use crate::jobs::{Runner, Settings};
 use crate::lifecycle::{self, DataDir, GateClosed, SystemClock, SystemIds};
 use crate::store::sqlite::SqliteStore;
@@ -100,7 +101,8 @@ async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()
         .await
         .with_context(|| format!("cannot listen on {}: give another --listen", config.server.listen))?;
     let address = listener.local_addr()?;
-    let runner = Runner::start(&ports, &settings(config)).await?;
+    let evaluators = Arc::new(PacedEvaluators(Simulations));
+    let runner = Runner::start(&ports, evaluators, &settings(config)).await?;
     let router = router(&app, &Access::new(token.expose_secret()), config)?;
     let limits = lifecycle::Limits {
         request_head: Duration::from_millis(config.limits.request_head_ms),

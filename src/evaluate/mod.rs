@@ -1,7 +1,11 @@
-//! Evaluators: what carries out the candidates of an execution.
+//! Evaluators: what carries out the trials of an execution, and decorators around them.
+//!
+//! # Architecture Invariants
+//! - Each one implements the port [`crate::app::ports::Evaluator`] and keeps its invariants; the wiring decides which
+//!   one is plugged in and what decorates it.
 
-mod pace;
+mod paced;
 mod simulation;
 
-pub use pace::Pace;
-pub use simulation::Simulation;
+pub use paced::{Paced, PacedEvaluators};
+pub use simulation::{Simulation, Simulations};

@@ -1,75 +1,63 @@
-//! Evaluation in a simulated world, in slices on the threads for blocking work.
+//! Evaluation in the problem's simulated world.
 
-use crate::framework::execution::{Iet, IetState, Problem, ProblemError, Progress, RunResult, simulate};
-use crate::framework::method::whole_run::Trial;
-use crate::framework::robot::Chain;
+use crate::app::ports::{Evaluator, EvaluatorError, Evaluators, RunContext, Trials};
+use crate::framework::execution::{Observations, simulated_world};
+use crate::framework::method::per_goal::Provenance;
 use crate::framework::world::World;
+use async_trait::async_trait;
 
-/// One run in its world.
+/// Candidates per call: enough that the call costs nothing beside them.
+const BATCH: usize = 64;
+
+/// The simulated world of one run.
 pub struct Simulation {
-    iet: Iet,
     world: Box<dyn World>,
+    /// Poses of the prefix the world has seen.
+    committed: usize,
+    scratch: Vec<f64>,
 }
 
 impl Simulation {
-    /// A run from its seed.
+    /// The world of `run`, before any pose.
     ///
     /// # Errors
-    /// [`ProblemError`] says what is wrong with the problem.
-    pub fn start(problem: &Problem, seed: u64) -> Result<Self, ProblemError> {
-        Self::with(Iet::new(problem, seed)?)
+    /// [`EvaluatorError::Problem`] if the world cannot be built.
+    pub fn new(run: RunContext<'_>) -> Result<Self, EvaluatorError> {
+        let world = simulated_world(run.problem, run.chain, run.seed)?;
+        let scratch = vec![0.0; world.features().len()];
+        Ok(Self { world, committed: 0, scratch })
+    }
+}
+
+#[async_trait]
+impl Evaluator for Simulation {
+    fn provenance(&self) -> Provenance {
+        Provenance::Simulated
     }
 
-    /// A run from where it was saved.
-    ///
-    /// # Errors
-    /// [`ProblemError`] when the state is not one of this problem.
-    pub fn resume(problem: &Problem, state: IetState) -> Result<Self, ProblemError> {
-        Self::with(Iet::resume(problem, state)?)
+    fn most_at_once(&self) -> usize {
+        BATCH
     }
 
-    fn with(iet: Iet) -> Result<Self, ProblemError> {
-        let world = iet.world()?;
-        Ok(Self { iet, world })
+    async fn evaluate(&mut self, trials: Trials<'_>, seen: &mut Observations) -> Result<(), EvaluatorError> {
+        for joints in trials.prefix.iter().skip(self.committed) {
+            self.world.commit(joints, &mut self.scratch);
+        }
+        self.committed = trials.prefix.len();
+        for (id, joints) in trials.batch.iter() {
+            self.world.observe(joints, seen.observed(id, joints));
+        }
+        Ok(())
     }
+}
 
-    /// Makes up to `budget` evaluations; blocks its thread.
-    ///
-    /// # Errors
-    /// [`ProblemError`] when a goal ends without any executed candidate.
-    pub fn advance(&mut self, budget: u64) -> Result<Progress, ProblemError> {
-        simulate(&mut self.iet, self.world.as_mut(), budget)
-    }
+/// Opens the simulated world of every problem.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Simulations;
 
-    /// Where the run stands, to be saved.
-    #[must_use]
-    pub fn state(&self) -> IetState {
-        self.iet.state()
-    }
-
-    /// Where the run stands, to be shown.
-    #[must_use]
-    pub fn progress(&self) -> Progress {
-        self.iet.progress()
-    }
-
-    /// Every trial so far of a method that remembers them.
-    #[must_use]
-    pub fn trials(&self) -> &[Trial] {
-        self.iet.log()
-    }
-
-    /// The chain that moves.
-    #[must_use]
-    pub fn chain(&self) -> &Chain {
-        self.iet.chain()
-    }
-
-    /// The finished run.
-    ///
-    /// # Errors
-    /// [`ProblemError::Unfinished`] before the last goal has ended.
-    pub fn finish(self) -> Result<RunResult, ProblemError> {
-        self.iet.finish()
+#[async_trait]
+impl Evaluators for Simulations {
+    async fn open(&self, run: RunContext<'_>) -> Result<Box<dyn Evaluator>, EvaluatorError> {
+        Ok(Box::new(Simulation::new(run)?))
     }
 }

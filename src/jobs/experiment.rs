@@ -6,100 +6,64 @@
 //! - A run that is under way when the job is asked to rest is given up, not waited for; it has no row and runs again.
 //! - Order of completion and number of threads cannot be seen: rows are kept by cell and repetition.
 
-use super::held::{Gone, Held};
-use crate::app::model::{EventData, ExperimentId, JobProgress, JobView, RowFilter};
-use crate::app::ports::{Advance, StoreError, Transition};
+use super::lease::{ClaimedJob, LeaseLost, Stop, blocking};
+use crate::app::model::ExperimentId;
+use crate::app::model::RowFilter;
+use crate::app::model::{EventData, JobProgress, JobView};
+use crate::app::ports::{Advance, StoreError};
 use crate::framework::experiment::{Experiment, Plan, RunError, RunId, RunRow, run_while};
-use crate::framework::job::{Event, State};
+use crate::framework::job::State;
 use rayon::iter::{ParallelBridge as _, ParallelIterator as _};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, Sender, channel};
-use tokio::task::JoinHandle;
 use tokio::time::{Instant, timeout};
 
 /// Rows that may wait for the store before the runs wait for them.
 const ROWS_WAITING: usize = 1024;
-/// Where no run ends, the job's state is looked up so often.
+/// Time between looks at the job's state while no run ends.
 const LOOK_UP: Duration = Duration::from_secs(1);
 
 /// Runs the job to its end, or until it is asked to rest.
-pub(super) async fn run(held: &Held, job: &JobView, experiment: ExperimentId) -> Result<(), Gone> {
-    let loaded = match load(held, &experiment).await {
-        Ok(loaded) => loaded,
-        Err(error @ StoreError::Corrupt { .. }) => {
-            return held.fail("corrupt_input", error.to_string()).await.map(drop);
+pub(super) async fn run(claimed: &ClaimedJob, job: &JobView, experiment: ExperimentId) -> Result<(), Stop> {
+    claimed.start().await?;
+    loop {
+        let loaded = load(claimed, &experiment).await?;
+        let mut running = RunningExperiment::new(claimed, job, &loaded);
+        let state = running.go_through(loaded).await?;
+        if running.finished == running.runs {
+            return Ok(claimed.succeed(Advance::default()).await?);
         }
-        Err(error) => return Err(Gone::Store(error)),
-    };
-    let state = held.transition(Transition::plain(Event::Start)).await?;
-    if state != State::Running {
-        return let_go(held, state).await;
+        // The runs under way were given up. If the job may go on after all, they run again.
+        claimed.settle(state).await?;
     }
-    let mut attempt = Attempt::new(held, job, &loaded);
-    let (rows, work) = start(loaded, Arc::clone(&attempt.going));
-    let outcome = attempt.follow(rows).await;
-    // Whatever ended the following: nobody needs the runs under way.
-    attempt.going.store(false, Ordering::Release);
-    let ended = work.await;
-    let state = outcome?;
-    match ended {
-        Ok(Ok(())) => {}
-        Ok(Err(error)) => return held.fail("problem", whole_text(&error)).await.map(drop),
-        Err(panic) => return held.fail("internal", format!("the computation panicked: {panic}")).await.map(drop),
-    }
-    if attempt.finished == attempt.runs {
-        return held.transition(Transition::plain(Event::Succeed)).await.map(drop);
-    }
-    let_go(held, state).await
 }
 
-async fn load(held: &Held, id: &ExperimentId) -> Result<Experiment, StoreError> {
-    let plan = held.ports.store.experiment_plan(id).await?;
-    let rows = held.ports.store.experiment_rows(id, &RowFilter::default()).await?;
+async fn load(claimed: &ClaimedJob, id: &ExperimentId) -> Result<Experiment, StoreError> {
+    let store = &claimed.ports.store;
+    let (plan, rows) = (store.experiment_plan(id).await?, store.experiment_rows(id, &RowFilter::default()).await?);
     Experiment::resume(plan, rows)
         .map_err(|error| StoreError::Corrupt { what: format!("rows of {id}"), cause: error.to_string() })
 }
 
-/// Does what a user or a stopping server asks; every row is written already.
-async fn let_go(held: &Held, state: State) -> Result<(), Gone> {
-    let event = match state {
-        State::Pausing => Event::Rest,
-        State::Cancelling => Event::Stop,
-        State::Running => Event::Requeue,
-        _ => return Ok(()),
+/// Runs everything pending, in the plan's order as threads get free, as long as `going` is set.
+fn run_pending(experiment: &Experiment, going: &AtomicBool, sender: Sender<RunRow>) -> Result<(), RunError> {
+    let plan = experiment.plan();
+    let pending: Vec<RunId> = experiment.pending().collect();
+    let all = || {
+        let each = pending.into_iter().par_bridge();
+        each.try_for_each_with(sender, |sender, id| step(plan, id, going, sender))
     };
-    match held.transition(Transition::plain(event)).await? {
-        // Asked otherwise meanwhile: another worker, or this one, takes it up from its rows.
-        State::Running if event == Event::Rest => held.transition(Transition::plain(Event::Requeue)).await.map(drop),
-        State::Cancelling => held.transition(Transition::plain(Event::Stop)).await.map(drop),
-        State::Pausing if event == Event::Requeue => held.transition(Transition::plain(Event::Rest)).await.map(drop),
-        _ => Ok(()),
+    // Threads of its own: an experiment beside another one gets its share of the cores, not what is left.
+    let result = match rayon::ThreadPoolBuilder::new().build() {
+        Ok(threads) => threads.install(all),
+        Err(_) => all(),
+    };
+    match result {
+        Err(Some(error)) => Err(error),
+        Ok(()) | Err(None) => Ok(()),
     }
-}
-
-/// Runs everything pending, in the plan's order as threads get free, until told to stop by `going`.
-fn start(experiment: Experiment, going: Arc<AtomicBool>) -> (Receiver<RunRow>, JoinHandle<Result<(), RunError>>) {
-    let (sender, rows) = channel(ROWS_WAITING);
-    let work = tokio::task::spawn_blocking(move || {
-        let pending: Vec<RunId> = experiment.pending().collect();
-        let plan = experiment.plan();
-        let all = || {
-            let each = pending.into_iter().par_bridge();
-            each.try_for_each_with(sender, |sender, id| step(plan, id, &going, sender))
-        };
-        // Threads of its own: an experiment beside another one gets its share of the cores, not what is left.
-        let result = match rayon::ThreadPoolBuilder::new().build() {
-            Ok(threads) => threads.install(all),
-            Err(_) => all(),
-        };
-        match result {
-            Err(Some(error)) => Err(error),
-            Ok(()) | Err(None) => Ok(()),
-        }
-    });
-    (rows, work)
 }
 
 /// One run; an error without content is the wish to stop.
@@ -111,8 +75,8 @@ fn step(plan: &Plan, id: RunId, going: &AtomicBool, sender: &Sender<RunRow>) -> 
     }
 }
 
-struct Attempt<'a> {
-    held: &'a Held,
+struct RunningExperiment<'a> {
+    claimed: &'a ClaimedJob,
     going: Arc<AtomicBool>,
     /// Ended, but not written yet.
     rows: Vec<RunRow>,
@@ -124,10 +88,10 @@ struct Attempt<'a> {
     evaluations: u64,
 }
 
-impl<'a> Attempt<'a> {
-    fn new(held: &'a Held, job: &JobView, experiment: &Experiment) -> Self {
+impl<'a> RunningExperiment<'a> {
+    fn new(claimed: &'a ClaimedJob, job: &JobView, experiment: &Experiment) -> Self {
         Self {
-            held,
+            claimed,
             going: Arc::new(AtomicBool::new(true)),
             rows: Vec::new(),
             written: Instant::now(),
@@ -139,16 +103,34 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Writes rows as they come until there are no more, or the job is asked to stop; answers its state.
-    async fn follow(&mut self, mut rows: Receiver<RunRow>) -> Result<State, Gone> {
-        let every = self.held.settings.checkpoint;
+    /// Runs what is pending until nothing is, or the job is asked to rest; answers its state.
+    async fn go_through(&mut self, experiment: Experiment) -> Result<State, Stop> {
+        let (sender, rows) = channel(ROWS_WAITING);
+        let going = Arc::clone(&self.going);
+        let work = blocking(move || run_pending(&experiment, &going, sender));
+        let follow = async {
+            let state = self.follow(rows).await;
+            // Whatever ended the following: nobody needs the runs under way.
+            self.going.store(false, Ordering::Release);
+            state
+        };
+        let (ended, state) = tokio::join!(work, follow);
+        let state = state?;
+        ended?.map_err(|error| Stop::failed("problem", whole_text(&error)))?;
+        Ok(state)
+    }
+
+    /// Writes rows as they come until there are no more; answers the job's state.
+    async fn follow(&mut self, mut rows: Receiver<RunRow>) -> Result<State, LeaseLost> {
+        let every = self.claimed.settings.checkpoint;
+        let mut interrupt = self.claimed.interrupt();
         let mut state = State::Running;
         loop {
             let wait = if self.rows.is_empty() { LOOK_UP } else { every.saturating_sub(self.written.elapsed()) };
             let stopping = !self.going.load(Ordering::Acquire);
             let next = tokio::select! {
                 next = timeout(wait, rows.recv()) => next,
-                () = self.held.interrupted(), if !stopping => {
+                () = interrupt.raised(), if !stopping => {
                     self.going.store(false, Ordering::Release);
                     continue;
                 }
@@ -169,14 +151,15 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    async fn write(&mut self) -> Result<State, Gone> {
+    async fn write(&mut self) -> Result<State, LeaseLost> {
         let rows = std::mem::take(&mut self.rows);
         self.finished += rows.len() as u64;
         self.evaluations += rows.iter().map(|row| row.evaluations).sum::<u64>();
         let progress = self.progress();
         let events =
             if rows.is_empty() { Vec::new() } else { vec![EventData::Progress { progress: progress.clone() }] };
-        let state = self.held.advance(Advance { rows, events, progress: Some(progress), ..Advance::default() }).await?;
+        let state =
+            self.claimed.advance(Advance { rows, events, progress: Some(progress), ..Advance::default() }).await?;
         self.written = Instant::now();
         Ok(state)
     }

@@ -1,10 +1,10 @@
-//! Workers, and the task that takes back what a lost worker held.
+//! Workers, and the task that requeues the jobs of lost ones.
 
-use super::held::{Gone, Held};
-use super::{execution, experiment, generalization};
+use super::lease::{ClaimedJob, LeaseLost, Stop};
+use super::run_kind;
 use crate::app::Ports;
-use crate::app::model::Work;
-use crate::app::ports::{Claimed, StoreError, Wake};
+use crate::app::ports::{Claimed, Evaluators, StoreError, Wake};
+use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::broadcast::{Receiver, error::RecvError};
 use tokio::task::JoinSet;
@@ -13,15 +13,15 @@ use tokio_util::sync::CancellationToken;
 /// How jobs are run.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Jobs at a time.
+    /// Jobs that run at the same time.
     pub workers: usize,
-    /// After so long without a sign of life a job is taken back.
+    /// Lease duration: a job without a heartbeat for this long is requeued.
     pub lease: Duration,
-    /// Time between signs of life.
+    /// Time between heartbeats.
     pub heartbeat: Duration,
     /// Time between checkpoints.
     pub checkpoint: Duration,
-    /// Losses in a row without a checkpoint after which a job fails.
+    /// A job that loses its worker this many times in a row without a checkpoint fails.
     pub max_crashes: u32,
 }
 
@@ -47,11 +47,15 @@ pub struct Runner {
 }
 
 impl Runner {
-    /// Takes over what an earlier server held, and starts the workers.
+    /// Requeues the jobs of an earlier server and starts the workers; `evaluators` carry out the trials of executions.
     ///
     /// # Errors
     /// [`StoreError`] when the store fails.
-    pub async fn start(ports: &Ports, settings: &Settings) -> Result<Self, StoreError> {
+    pub async fn start(
+        ports: &Ports,
+        evaluators: Arc<dyn Evaluators>,
+        settings: &Settings,
+    ) -> Result<Self, StoreError> {
         let orphans = ports.store.begin_epoch(ports.clock.now()).await?;
         if !orphans.is_empty() {
             tracing::info!(jobs = orphans.len(), "jobs of an earlier server go on from their checkpoints");
@@ -59,13 +63,19 @@ impl Runner {
         let stop = CancellationToken::new();
         let mut tasks = JoinSet::new();
         for _ in 0..settings.workers {
-            tasks.spawn(work(ports.clone(), settings.clone(), stop.clone()));
+            let worker = Worker {
+                ports: ports.clone(),
+                evaluators: Arc::clone(&evaluators),
+                settings: settings.clone(),
+                stop: stop.clone(),
+            };
+            tasks.spawn(worker.work());
         }
         tasks.spawn(reap(ports.clone(), stop.clone()));
         Ok(Self { tasks, stop })
     }
 
-    /// Lets every worker write its checkpoint and give back its job; answers whether all did within `limit`.
+    /// Lets every worker write its checkpoint and give back its job; returns whether all did within `limit`.
     pub async fn shut_down(mut self, limit: Duration) -> bool {
         self.stop.cancel();
         let all = async { while self.tasks.join_next().await.is_some() {} };
@@ -73,42 +83,54 @@ impl Runner {
     }
 }
 
-async fn work(ports: Ports, settings: Settings, stop: CancellationToken) {
-    let mut wakes = ports.events.subscribe();
-    while !stop.is_cancelled() {
-        let (token, now) = (ports.ids.token(), ports.clock.now());
-        match ports.store.claim(token, settings.lease, settings.max_crashes, now).await {
-            Ok(Some(claimed)) => hold(&ports, &settings, claimed, &stop).await,
-            Ok(None) => queued(&mut wakes, &stop).await,
-            Err(error) => {
-                tracing::error!(error = %error, cause = ?error, "no job could be claimed");
-                rest(LOOK_AGAIN, &stop).await;
+struct Worker {
+    ports: Ports,
+    evaluators: Arc<dyn Evaluators>,
+    settings: Settings,
+    stop: CancellationToken,
+}
+
+impl Worker {
+    async fn work(self) {
+        let mut wakes = self.ports.events.subscribe();
+        let Settings { lease, max_crashes, .. } = self.settings;
+        while !self.stop.is_cancelled() {
+            let (token, now) = (self.ports.ids.token(), self.ports.clock.now());
+            match self.ports.store.claim(token, lease, max_crashes, now).await {
+                Ok(Some(claimed)) => self.attempt(claimed).await,
+                Ok(None) => queued(&mut wakes, &self.stop).await,
+                Err(error) => {
+                    tracing::error!(error = %error, cause = ?error, "no job could be claimed");
+                    rest(LOOK_AGAIN, &self.stop).await;
+                }
             }
         }
     }
-}
 
-async fn hold(ports: &Ports, settings: &Settings, claimed: Claimed, stop: &CancellationToken) {
-    let Claimed { claim, job, work, checkpoint } = claimed;
-    let id = job.id.clone();
-    ports.events.publish(Wake::Job(id.clone()));
-    let held = Held::new(ports.clone(), settings.clone(), claim, stop.clone());
-    tracing::info!(job.id = %id, job.kind = job.kind.as_str(), job.attempt = job.attempt, "job claimed");
-    // On its own task: a panic ends the attempt, not the worker; the job is taken back when its lease ends.
-    let attempt = tokio::spawn(async move {
-        match work {
-            Work::Generalization(request) => generalization::run(&held, &job, request).await,
-            Work::Execution(work) => execution::run(&held, &job, *work, checkpoint).await,
-            Work::Experiment { experiment } => experiment::run(&held, &job, experiment).await,
+    async fn attempt(&self, claimed: Claimed) {
+        let Claimed { claim, job, work, checkpoint } = claimed;
+        let id = job.id.clone();
+        self.ports.events.publish(Wake::Job(id.clone()));
+        tracing::info!(job.id = %id, job.kind = job.kind.as_str(), job.attempt = job.attempt, "job claimed");
+        let claimed = ClaimedJob::new(self.ports.clone(), self.settings.clone(), claim, self.stop.clone());
+        let evaluators = Arc::clone(&self.evaluators);
+        // On its own task: a panic ends the attempt, not the worker; the job is requeued when its lease ends.
+        let attempt = tokio::spawn(async move {
+            let ended = run_kind(&claimed, evaluators.as_ref(), &job, work, checkpoint).await;
+            match ended {
+                Ok(()) | Err(Stop::Released) => Ok(()),
+                Err(Stop::Failed { code, message }) => claimed.fail(code, message).await,
+                Err(Stop::Lost(lost)) => Err(lost),
+            }
+        });
+        match attempt.await {
+            Ok(Ok(())) => tracing::info!(job.id = %id, "job released"),
+            Ok(Err(LeaseLost::Expired)) => tracing::warn!(job.id = %id, "job lost to another worker"),
+            Ok(Err(LeaseLost::Store(error))) => {
+                tracing::error!(job.id = %id, error = %error, cause = ?error, "job abandoned: the store failed");
+            }
+            Err(panic) => tracing::error!(job.id = %id, error = %panic, "job abandoned: its worker panicked"),
         }
-    });
-    match attempt.await {
-        Ok(Ok(())) => tracing::info!(job.id = %id, "job let go"),
-        Ok(Err(Gone::Lost)) => tracing::warn!(job.id = %id, "job lost to another worker"),
-        Ok(Err(Gone::Store(error))) => {
-            tracing::error!(job.id = %id, error = %error, cause = ?error, "job abandoned: the store failed");
-        }
-        Err(panic) => tracing::error!(job.id = %id, error = %panic, "job abandoned: its worker panicked"),
     }
 }
 

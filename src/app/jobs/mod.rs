@@ -1,20 +1,18 @@
 //! Jobs: submitted once, run durably, watched by events with a durable sequence.
 
-mod earlier;
-mod estimate;
+mod kind;
 mod reference;
-mod resolve;
-mod resolved;
+mod trial_reuse;
+mod validate;
 mod watch;
 
 use crate::app::model::{
-    AppError, CreateJob, ErrorKind, EventPage, ExperimentView, JobFilter, JobId, JobResult, JobView, Keyset, Page,
-    PageQuery, Work,
+    AppError, CreateJob, ErrorKind, EventPage, JobFilter, JobId, JobResult, JobView, Keyset, Page, PageQuery,
 };
-use crate::app::ports::{IdempotencyKey, NewExperiment, NewJob, Submitted, Transition, Wake};
+use crate::app::ports::{IdempotencyKey, NewJob, Submitted, Transition, Wake};
 use crate::app::{App, out_of_bounds};
 use crate::framework::job::{Event, State};
-use resolved::Resolved;
+use kind::Resolved;
 use sha2::{Digest as _, Sha256};
 
 /// Most events of one answer.
@@ -34,7 +32,7 @@ impl App {
         {
             return Ok(job);
         }
-        let resolved = self.resolve(request).await?;
+        let resolved = kind::resolve(self, request).await?;
         self.submit(resolved, key).await
     }
 
@@ -57,21 +55,7 @@ impl App {
             started_at: None,
             finished_at: None,
         };
-        let experiment = resolved.experiment.map(|(id, plan)| {
-            let view = ExperimentView {
-                id,
-                name: plan.name.clone(),
-                job: view.id.clone(),
-                state: view.state,
-                seed: plan.seed,
-                repetitions: plan.repetitions,
-                cells: u32::try_from(plan.cells.len()).unwrap_or(u32::MAX),
-                runs: plan.runs(),
-                finished_runs: 0,
-                created_at: now,
-            };
-            NewExperiment { view, plan }
-        });
+        let experiment = resolved.experiment.map(|(id, plan)| kind::experiment::stored(id, plan, &view));
         let new = NewJob { view, work: resolved.work, uses: resolved.uses, experiment };
         match self.ports.store.submit(new, key).await? {
             Submitted::Created(job) => {
@@ -141,13 +125,7 @@ impl App {
         let key = idempotency_key.map(|key| checked_key(key, format!("clone {id}").as_bytes())).transpose()?;
         let job = self.get_job(id).await?;
         let work = self.ports.store.work(id).await?;
-        let resolved = match work {
-            Work::Experiment { experiment } => {
-                let plan = self.ports.store.experiment_plan(&experiment).await?;
-                self.resolved_experiment(job.name, job.request, plan)
-            }
-            work => Resolved::again(job.name, job.request, work),
-        };
+        let resolved = kind::again(self, job, work).await?;
         self.submit(resolved, key).await
     }
 

@@ -1,36 +1,12 @@
 //! Jobs, as they are shown.
 
 use super::id::{ActionId, ExperimentId, JobId, RunId};
+use super::job_kind::{CreateJob, JobKind};
 use super::job_progress::JobProgress;
-use super::job_request::CreateJob;
 use super::time::Timestamp;
 use crate::framework::job::State;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
-
-/// What a job does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum JobKind {
-    /// Makes an action of demonstrations.
-    Generalization,
-    /// Finds the joint trajectory with which a robot produces an action's effects.
-    Execution,
-    /// Runs many settings many times and compares them.
-    Experiment,
-}
-
-impl JobKind {
-    /// The name in JSON and in the store.
-    #[must_use]
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Generalization => "generalization",
-            Self::Execution => "execution",
-            Self::Experiment => "experiment",
-        }
-    }
-}
 
 /// A job as it stands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]

@@ -7,14 +7,15 @@
 mod action;
 mod demonstration;
 mod error;
+mod execution_work;
 mod experiment;
 mod export;
 mod id;
 mod job;
 mod job_cost;
 mod job_event;
+mod job_kind;
 mod job_progress;
-mod job_request;
 mod null_as_infinite;
 mod page;
 mod recognition;
@@ -24,22 +25,22 @@ mod samples;
 mod time;
 mod trajectory;
 mod upload;
-mod work;
 mod world;
 
 pub use action::{ActionGoals, ActionView, Interpolation};
 pub use demonstration::{DemonstrationReport, DemonstrationView, PatchDemonstration, StreamView};
 pub use error::{AppError, ErrorKind, FieldError};
+pub use execution_work::ExecutionWork;
 pub use experiment::{
     EveryTable, ExperimentComparison, ExperimentRequest, ExperimentTable, ExperimentView, PaperTable, RowFilter,
 };
 pub use export::Export;
 pub use id::{ActionId, DemonstrationId, ExperimentId, IdError, JobId, RobotId, RunId, TrajectoryId, WorldId};
-pub use job::{JobFailure, JobFilter, JobKind, JobResult, JobView};
+pub use job::{JobFailure, JobFilter, JobResult, JobView};
 pub use job_cost::{CostEstimate, Validation};
 pub use job_event::{EventData, EventPage, JobEvent};
+pub use job_kind::{CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest, JobKind, Work};
 pub use job_progress::{GoalProgress, JobProgress, TrialProgress};
-pub use job_request::{CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
 pub use page::{DEFAULT_PAGE_SIZE, Keyset, MAX_PAGE_SIZE, Page, PageQuery};
 pub use recognition::{IncomparableCandidate, Observed, RecognitionCandidate, RecognitionView, RecognizeRequest};
 pub use robot::{CreateRobot, RobotView};
@@ -48,5 +49,4 @@ pub use samples::{SamplesQuery, SamplesView, Series};
 pub use time::Timestamp;
 pub use trajectory::{TrajectoryPoint, TrajectoryView};
 pub use upload::{UploadDemonstration, UploadFile, UploadOptions};
-pub use work::{ExecutionWork, Work};
 pub use world::{CreateWorld, WorldView};

@@ -1,11 +1,13 @@
-//! What the use-cases need from outside: storage, time, ids and seeds, wake-ups.
+//! What the use-cases need from outside: storage, evaluation, time, ids and seeds, wake-ups.
 
 mod clock;
+mod evaluator;
 mod events;
 mod ids;
 mod store;
 
 pub use clock::Clock;
+pub use evaluator::{Evaluator, EvaluatorError, Evaluators, RunContext, TrialId, Trials};
 pub use events::{Events, LocalEvents, Wake};
 pub use ids::{Ids, SEED_BOUND};
 pub use store::{

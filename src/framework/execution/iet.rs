@@ -15,13 +15,14 @@ use super::observations::{Observations, Seen};
 use super::owner::Owner;
 use super::result::{GoalResult, Progress, RunResult, TracePoint, digest, record};
 use super::setup::Setup;
+use super::simulate::world_of;
 use super::spec::Problem;
 use super::state::{GoalState, IetState, STATE_VERSION};
 use crate::constraint::Proposal;
 use crate::method::per_goal::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
 use crate::method::whole_run::{Proposal as Next, Trial};
 use crate::robot::Chain;
-use crate::world::{self, World};
+use crate::world::World;
 
 /// The candidate by which a winner that was never executed is executed.
 const CONFIRMATION: u64 = u64::MAX;
@@ -155,11 +156,7 @@ impl Iet {
     /// # Errors
     /// [`ProblemError::World`], though a run that could be made has a world.
     pub fn world(&self) -> Result<Box<dyn World>, ProblemError> {
-        let (spec, chain) = (&self.setup.world, &self.setup.chain);
-        Ok(match &self.setup.spec.reality {
-            Some(reality) => world::build_real(spec, chain, reality, self.seed)?,
-            None => world::build(spec, chain)?,
-        })
+        world_of(&self.setup.world, self.setup.spec.reality.as_ref(), &self.setup.chain, self.seed)
     }
 
     /// U_1..U_j-1, or the accepted poses of a method that owns the run: what must be executed, in order, before each
@@ -180,6 +177,15 @@ impl Iet {
     #[must_use]
     pub fn is_finished(&self) -> bool {
         self.results.len() == self.setup.goals.len()
+    }
+
+    /// Goal the next candidates are for, from 0; the number of goals once the run is finished.
+    #[must_use]
+    pub fn goal_index(&self) -> usize {
+        if self.is_finished() {
+            return self.results.len();
+        }
+        self.owner.as_ref().map_or(self.results.len(), Owner::goal)
     }
 
     /// Number of features of the world: values an observation holds.
@@ -225,6 +231,9 @@ impl Iet {
         }
         let goal_index = self.results.len();
         for (id, joints, seen) in observations.iter() {
+            if seen == Seen::Unknown {
+                continue;
+            }
             if id == CONFIRMATION {
                 return self.tell_confirmation(seen);
             }
@@ -245,7 +254,9 @@ impl Iet {
     /// As [`Iet::tell`], for a method that owns the run: a lost observation costs an evaluation too.
     fn tell_owner(&mut self, observations: &Observations) -> Result<(), ProblemError> {
         let Some(owner) = &mut self.owner else { return Ok(()) };
-        if let Some((_, joints, seen)) = observations.iter().find(|trial| trial.0 == self.evaluations) {
+        if let Some((_, joints, seen)) =
+            observations.iter().find(|trial| trial.0 == self.evaluations && trial.2 != Seen::Unknown)
+        {
             owner.tell(&self.setup, joints, seen.features());
             self.evaluations += 1;
         }
@@ -382,9 +393,8 @@ impl Iet {
     /// Where the run stands.
     #[must_use]
     pub fn progress(&self) -> Progress {
-        let goal = self.owner.as_ref().map_or(self.results.len(), Owner::goal);
         Progress {
-            goal_index: if self.is_finished() { self.results.len() } else { goal },
+            goal_index: self.goal_index(),
             goals: self.setup.goals.len(),
             evaluations: self.evaluations,
             goal_evaluations: if self.is_finished() { 0 } else { self.goal.evaluations },

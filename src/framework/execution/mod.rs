@@ -21,6 +21,8 @@ mod spec;
 mod state;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod unknown_tests;
 
 pub use choice::Chosen;
 pub use discrepancy::PartialDiscrepancy;
@@ -29,6 +31,6 @@ pub use estimate::{Preview, ROBOT_TRIAL_S, in_words};
 pub use iet::Iet;
 pub use observations::{Observations, Seen};
 pub use result::{GoalResult, Progress, RunResult, TracePoint};
-pub use simulate::{run, run_while, simulate};
+pub use simulate::{run, run_while, simulate, simulated_world};
 pub use spec::{ExecutionSpec, Problem};
 pub use state::IetState;

@@ -5,21 +5,32 @@ use crate::method::per_goal::Provenance;
 /// What was seen of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Seen<'a> {
-    /// All features of the world.
-    Features(&'a [f64]),
-    /// It was executed, but a value is not finite: the observation is lost. An evaluation all the same.
+    /// It was executed and observed: all features of the world.
+    Observed(&'a [f64]),
+    /// It was executed, but a value is missing or not finite. An evaluation all the same.
     Lost,
-    /// It could not be executed: no evaluation.
+    /// It was refused before it began: not an evaluation.
     Failed,
+    /// Nobody knows whether it was executed. The run learns nothing and goes on asking for it once it is resumed, so
+    /// whoever drives the run must stop there.
+    Unknown,
+}
+
+/// As [`Seen`], before the values are looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fate {
+    Executed,
+    Failed,
+    Unknown,
 }
 
 impl<'a> Seen<'a> {
-    /// The features, where there are any.
+    /// The features, if it was observed.
     #[must_use]
     pub fn features(self) -> Option<&'a [f64]> {
         match self {
-            Self::Features(values) => Some(values),
-            Self::Lost | Self::Failed => None,
+            Self::Observed(values) => Some(values),
+            Self::Lost | Self::Failed | Self::Unknown => None,
         }
     }
 }
@@ -31,7 +42,7 @@ pub struct Observations {
     features: usize,
     provenance: Provenance,
     ids: Vec<u64>,
-    failed: Vec<bool>,
+    fates: Vec<Fate>,
     joints: Vec<f64>,
     values: Vec<f64>,
 }
@@ -40,21 +51,13 @@ impl Observations {
     /// None yet, for candidates of `genes` genes and observations of `features` values, executed as `provenance` says.
     #[must_use]
     pub fn new(genes: usize, features: usize, provenance: Provenance) -> Self {
-        Self {
-            genes,
-            features,
-            provenance,
-            ids: Vec::new(),
-            failed: Vec::new(),
-            joints: Vec::new(),
-            values: Vec::new(),
-        }
+        Self { genes, features, provenance, ids: Vec::new(), fates: Vec::new(), joints: Vec::new(), values: Vec::new() }
     }
 
     /// Forgets all.
     pub fn clear(&mut self) {
         self.ids.clear();
-        self.failed.clear();
+        self.fates.clear();
         self.joints.clear();
         self.values.clear();
     }
@@ -64,7 +67,7 @@ impl Observations {
     /// # Panics
     /// If `joints` has another length than genes.
     pub fn observed(&mut self, id: u64, joints: &[f64]) -> &mut [f64] {
-        self.push(id, joints, false)
+        self.push(id, joints, Fate::Executed)
     }
 
     /// Candidate `id` could not be executed at `joints`.
@@ -72,13 +75,29 @@ impl Observations {
     /// # Panics
     /// If `joints` has another length than genes.
     pub fn failed(&mut self, id: u64, joints: &[f64]) {
-        self.push(id, joints, true);
+        self.push(id, joints, Fate::Failed);
     }
 
-    fn push(&mut self, id: u64, joints: &[f64], failed: bool) -> &mut [f64] {
+    /// Candidate `id` was executed at `joints`, but its observation is missing.
+    ///
+    /// # Panics
+    /// If `joints` has another length than genes.
+    pub fn lost(&mut self, id: u64, joints: &[f64]) {
+        self.observed(id, joints).fill(f64::NAN);
+    }
+
+    /// Nobody knows whether candidate `id` was executed at `joints`.
+    ///
+    /// # Panics
+    /// If `joints` has another length than genes.
+    pub fn unknown(&mut self, id: u64, joints: &[f64]) {
+        self.push(id, joints, Fate::Unknown);
+    }
+
+    fn push(&mut self, id: u64, joints: &[f64], fate: Fate) -> &mut [f64] {
         assert_eq!(joints.len(), self.genes, "a candidate has one value a gene");
         self.ids.push(id);
-        self.failed.push(failed);
+        self.fates.push(fate);
         self.joints.extend_from_slice(joints);
         let start = self.values.len();
         self.values.resize(start + self.features, 0.0);
@@ -94,11 +113,12 @@ impl Observations {
     /// Id, joints and fate of each candidate.
     pub fn iter(&self) -> impl Iterator<Item = (u64, &[f64], Seen<'_>)> {
         let rows = self.joints.chunks_exact(self.genes).zip(self.values.chunks_exact(self.features));
-        self.ids.iter().zip(&self.failed).zip(rows).map(|((&id, &failed), (joints, values))| {
-            let seen = match failed {
-                true => Seen::Failed,
-                false if values.iter().all(|v| v.is_finite()) => Seen::Features(values),
-                false => Seen::Lost,
+        self.ids.iter().zip(&self.fates).zip(rows).map(|((&id, &fate), (joints, values))| {
+            let seen = match fate {
+                Fate::Executed if values.iter().all(|v| v.is_finite()) => Seen::Observed(values),
+                Fate::Executed => Seen::Lost,
+                Fate::Failed => Seen::Failed,
+                Fate::Unknown => Seen::Unknown,
             };
             (id, joints, seen)
         })

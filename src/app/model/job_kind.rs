@@ -1,12 +1,39 @@
-//! Requests for jobs.
+//! Job kinds: the name of each one, what is asked for, and what a worker gets.
+//!
+//! A new kind adds a variant to the three enums of this file and its request.
 
+use super::execution_work::ExecutionWork;
 use super::experiment::ExperimentRequest;
-use super::id::{ActionId, DemonstrationId, JobId, RobotId, RunId, WorldId};
+use super::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, WorldId};
 use crate::framework::execution::ExecutionSpec;
 use crate::framework::generalization::Weighting;
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
+
+/// What a job does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JobKind {
+    /// Makes an action of demonstrations.
+    Generalization,
+    /// Finds the joint trajectory with which a robot produces an action's effects.
+    Execution,
+    /// Runs many settings many times and compares them.
+    Experiment,
+}
+
+impl JobKind {
+    /// The name in JSON and in the store.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Generalization => "generalization",
+            Self::Execution => "execution",
+            Self::Experiment => "experiment",
+        }
+    }
+}
 
 /// Request for a new job; `kind` selects the variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -18,6 +45,42 @@ pub enum CreateJob {
     Execution(Box<ExecutionRequest>),
     /// Runs many settings many times.
     Experiment(ExperimentRequest),
+}
+
+/// What a worker does.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Work {
+    /// Makes an action of demonstrations; their samples never change, only they may be deleted meanwhile.
+    Generalization(GeneralizationRequest),
+    /// Runs a problem.
+    Execution(Box<ExecutionWork>),
+    /// Runs an experiment; its plan is stored once, with it.
+    Experiment {
+        /// The experiment.
+        experiment: ExperimentId,
+    },
+}
+
+impl Work {
+    /// What kind of job it is.
+    #[must_use]
+    pub fn kind(&self) -> JobKind {
+        match self {
+            Self::Generalization(_) => JobKind::Generalization,
+            Self::Execution(_) => JobKind::Execution,
+            Self::Experiment { .. } => JobKind::Experiment,
+        }
+    }
+
+    /// The demonstrations it reads while it works.
+    #[must_use]
+    pub fn demonstrations(&self) -> &[DemonstrationId] {
+        match self {
+            Self::Generalization(request) => &request.demonstrations,
+            Self::Execution(_) | Self::Experiment { .. } => &[],
+        }
+    }
 }
 
 /// Request for a generalization.

@@ -1,5 +1,5 @@
-//! Trials of earlier runs on the same robot: found when a job is submitted and kept in it, so that it needs nothing
-//! else and goes on with the same bits.
+//! Reuse of trials: those of earlier runs with the same set-up are found when a job is submitted and stored in it, so
+//! that it needs nothing else and goes on with the same bits.
 //!
 //! Runs share their trials when the same pose shows the same: one robot (by name, content of its URDF, chain and tool),
 //! one world without memory, one list of features, and one reality. A simulated reality that draws its robot is the
@@ -14,13 +14,14 @@ use crate::framework::method::whole_run::Trial;
 use serde_json::json;
 use sha2::{Digest as _, Sha256};
 
-/// Most earlier trials a method begins with: beyond, asking takes long and tells little.
+/// Maximum number of earlier trials a method begins with: more of them take long and teach little.
 const MAX_TRIALS: usize = 60;
-/// Most runs that are looked through for them.
+/// Maximum number of runs searched for them.
 const MAX_RUNS: u32 = 20;
 
-/// What decides what a pose shows, as a digest; none where that is not the same in two runs.
-pub(super) fn setting(robot: &RobotView, problem: &Problem, seed: u64, repetitions: u32) -> Option<String> {
+/// Digest of everything that determines an observation (robot, tool, world, features); `None` if two runs can never
+/// share trials.
+pub(super) fn setup_key(robot: &RobotView, problem: &Problem, seed: u64, repetitions: u32) -> Option<String> {
     if problem.world.properties().surface.is_some() {
         return None;
     }
@@ -50,22 +51,22 @@ pub(super) fn setting(robot: &RobotView, problem: &Problem, seed: u64, repetitio
 }
 
 impl App {
-    /// The trials the job begins with; what was left open in the request is filled in.
+    /// The trials the job begins with; `request` is told which runs they come from.
     pub(super) async fn earlier_trials(
         &self,
         request: &mut ExecutionRequest,
-        setting: Option<&str>,
+        setup_key: Option<&str>,
     ) -> Result<Vec<Trial>, AppError> {
         let begins_with_trials = matches!(request.execution.method, MethodSpec::Model(_));
-        let found = match (&request.earlier_runs, setting) {
-            (None, Some(setting)) if begins_with_trials => self.ports.store.runs_on(setting, MAX_RUNS).await?,
+        let found = match (&request.earlier_runs, setup_key) {
+            (None, Some(setup_key)) if begins_with_trials => self.ports.store.runs_on(setup_key, MAX_RUNS).await?,
             (None, _) => return Ok(Vec::new()),
             (Some(named), _) if named.is_empty() => return Ok(Vec::new()),
             (Some(_), _) if !begins_with_trials => {
                 let detail = "only the method model begins with earlier trials: leave them out";
                 return Err(AppError::field("/earlier_runs", "not_used", detail));
             }
-            (Some(named), setting) => self.named_trials(named, setting).await?,
+            (Some(named), setup_key) => self.named_trials(named, setup_key).await?,
         };
         let mut left = MAX_TRIALS;
         let mut trials = Vec::new();
@@ -88,7 +89,7 @@ impl App {
     async fn named_trials(
         &self,
         named: &[EarlierRun],
-        setting: Option<&str>,
+        setup_key: Option<&str>,
     ) -> Result<Vec<(RunView, Vec<Trial>)>, AppError> {
         let mut found = Vec::with_capacity(named.len());
         let mut errors = Vec::new();
@@ -102,7 +103,7 @@ impl App {
                 }
             };
             let kept = self.ports.store.run_trials(&earlier.run).await?;
-            if kept.setting.is_some() && kept.setting.as_deref() == setting {
+            if kept.setting.is_some() && kept.setting.as_deref() == setup_key {
                 found.push((run, kept.trials));
                 continue;
             }
@@ -142,9 +143,9 @@ mod tests {
     }
 
     #[test]
-    fn a_setting_is_all_that_decides_what_a_pose_shows_and_nothing_else() {
+    fn the_setup_key_is_all_that_decides_what_a_pose_shows_and_nothing_else() {
         let problem = shipped::preset("wax").unwrap().problem;
-        let of = |problem: &Problem, seed, repetitions| setting(&robot(problem), problem, seed, repetitions);
+        let of = |problem: &Problem, seed, repetitions| setup_key(&robot(problem), problem, seed, repetitions);
         let same = of(&problem, 1, 1);
         assert!(same.is_some());
         let mut other = problem.clone();

@@ -3,7 +3,7 @@
 use crate::framework::execution::IetState;
 use serde::{Deserialize, Serialize};
 
-/// Counted up when the meaning of a checkpoint changes.
+/// Incremented when the meaning of a checkpoint changes.
 const VERSION: u32 = 1;
 
 /// A saved execution job.
@@ -11,13 +11,13 @@ const VERSION: u32 = 1;
 #[serde(deny_unknown_fields)]
 pub(super) struct Checkpoint {
     version: u32,
-    /// Who wrote it: another build may compute other bits.
+    /// Build that wrote it: another one may compute other bits.
     build: String,
     /// The present repetition; those before it are stored as runs.
     pub(super) repetition: u32,
     /// Evaluations of the repetitions before it.
     pub(super) evaluations_before: u64,
-    /// Where the present repetition stands; absent at its beginning.
+    /// State of the present repetition; `None` at its beginning.
     pub(super) iet: Option<IetState>,
 }
 
@@ -37,7 +37,7 @@ impl Checkpoint {
         Self { iet: Some(iet), ..self.clone() }
     }
 
-    /// As it is stored.
+    /// The stored bytes.
     ///
     /// # Errors
     /// Never for a state the machine made; JSON has no number for NaN.
@@ -45,8 +45,8 @@ impl Checkpoint {
         serde_json::to_vec(self)
     }
 
-    /// What `bytes` hold, if this build wrote them for that repetition. Otherwise the repetition starts again from its
-    /// seed: slower, and with the bits of an uninterrupted run of this build.
+    /// The checkpoint in `bytes` if this build wrote it for that repetition. Otherwise the repetition starts again from
+    /// its seed: slower, and with the bits of an uninterrupted run of this build.
     pub(super) fn decode(bytes: &[u8], repetition: u32) -> Option<Self> {
         let found: Self = serde_json::from_slice(bytes).ok()?;
         (found.version == VERSION && found.build == build() && found.repetition == repetition).then_some(found)

@@ -1,4 +1,4 @@
-//! A finished repetition as it is stored: run, goals, convergence, trajectory.
+//! A finished repetition as stored: run, goals, convergence, trajectory.
 
 use crate::app::model::{
     ConvergencePoint, ExecutionWork, JobId, RunGoal, RunGoals, RunId, RunView, Timestamp, TrajectoryId,
@@ -6,12 +6,11 @@ use crate::app::model::{
 };
 use crate::app::ports::{KeptTrials, NewRun};
 use crate::app::trajectories::{digest, plan_through};
-use crate::evaluate::Simulation;
-use crate::framework::execution::{ProblemError, RunResult};
+use crate::framework::execution::{Iet, ProblemError, RunResult};
 use crate::framework::trajectory::CheckedTrajectory;
 use uuid::Uuid;
 
-/// Ids and time that the results of a repetition are given.
+/// Ids and time of a repetition's results.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Marks {
     pub run: Uuid,
@@ -19,20 +18,20 @@ pub(super) struct Marks {
     pub created_at: Timestamp,
 }
 
-/// What is stored of `simulation`.
+/// The records of the finished run `iet`.
 ///
 /// # Errors
 /// [`ProblemError::Unfinished`] before the last goal has ended.
 pub(super) fn finished_run(
-    simulation: Simulation,
+    iet: Iet,
     work: &ExecutionWork,
     job: &JobId,
     repetition: u32,
     marks: Marks,
 ) -> Result<NewRun, ProblemError> {
-    let chain = simulation.chain().clone();
-    let trials = KeptTrials { setting: work.setting.clone(), trials: simulation.trials().to_vec() };
-    let result = simulation.finish()?;
+    let chain = iet.chain().clone();
+    let trials = KeptTrials { setting: work.setup_key.clone(), trials: iet.log().to_vec() };
+    let result = iet.finish()?;
     let id = RunId::from_uuid(marks.run);
     let (trajectory, trajectory_problem) = match plan_through(&chain, &result.waypoints()) {
         Ok(planned) => (Some(trajectory(&planned, &id, work, job, marks)), None),
@@ -121,10 +120,10 @@ fn goals(result: &RunResult, work: &ExecutionWork) -> Vec<RunGoal> {
     goals.collect()
 }
 
-/// What is not finite about a goal cannot be stored, for JSON has no such number.
+/// Rejects NaN and infinite values of a goal: JSON cannot represent them.
 ///
 /// # Errors
-/// Which number it is, and what to do.
+/// A sentence with the number and the remedy.
 pub(super) fn check_finite(goal: u32, discrepancy: f64, observation: &[f64]) -> Result<(), String> {
     let remedy = "its squares must stay below 1e308: give demonstrations and the world in a unit with smaller numbers";
     if let Some(value) = observation.iter().find(|value| !value.is_finite()) {
@@ -136,12 +135,12 @@ pub(super) fn check_finite(goal: u32, discrepancy: f64, observation: &[f64]) -> 
     Ok(())
 }
 
-/// Euclidean, in the features' unit.
+/// Euclidean distance, features' unit.
 pub(super) fn distance(observation: &[f64], goal: &[f64]) -> f64 {
     observation.iter().zip(goal).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
 }
 
-/// One point an improvement, in evaluations since the run began.
+/// One point per improvement, in evaluations since the run began.
 fn convergence(result: &RunResult) -> Vec<ConvergencePoint> {
     let mut before = 0;
     let mut points = Vec::new();

@@ -1,0 +1,112 @@
+//! Executions, from request to submission: references are looked up and copied, the method is chosen, earlier trials are
+//! found, and the whole problem is checked as the worker will check it.
+
+use super::Resolved;
+use super::cost::{PREVIEW_TIME, TrialCost};
+use crate::app::jobs::reference::look_up;
+use crate::app::jobs::trial_reuse::setup_key;
+use crate::app::model::{
+    AppError, CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, FieldError, JobProgress, Work,
+};
+use crate::app::ports::{SEED_BOUND, Usage};
+use crate::app::{App, chain_text, check_name, compute};
+use crate::framework::execution::{Iet, Problem};
+use crate::framework::generalization::Goals;
+
+/// Maximum number of repetitions of one job.
+const MAX_REPETITIONS: u32 = 1000;
+
+/// Checks and completes a request.
+///
+/// # Errors
+/// `Invalid` with every wrong place.
+pub(super) async fn resolve(app: &App, mut request: ExecutionRequest) -> Result<Resolved, AppError> {
+    let mut errors = bounds(&request);
+    let store = &app.ports.store;
+    let action = look_up(&mut errors, "/action", store.action(&request.action).await)?;
+    let goals = look_up(&mut Vec::new(), "/action", store.action_goals(&request.action).await)?;
+    let robot = look_up(&mut errors, "/robot", store.robot(&request.robot).await)?;
+    let urdf = look_up(&mut Vec::new(), "/robot", store.robot_urdf(&request.robot).await)?;
+    let world = look_up(&mut errors, "/world", store.world(&request.world).await)?;
+    let (Some(action), Some(goals), Some(robot), Some(urdf), Some(world), true) =
+        (action, goals, robot, urdf, world, errors.is_empty())
+    else {
+        return Err(AppError::invalid(errors));
+    };
+    let goals = Goals::new(goals.features, &goals.goals).map_err(AppError::internal)?;
+    let mut problem = Problem {
+        goals,
+        urdf,
+        robot: robot.spec.clone(),
+        world: world.spec,
+        execution: request.execution.clone(),
+        earlier: Vec::new(),
+    };
+    // Only the service records the reason for a method.
+    problem.execution.chosen = None;
+    problem.choose();
+    request.execution = problem.execution.clone();
+    let seed = request.seed.unwrap_or_else(|| app.ports.ids.seed());
+    let setup_key = setup_key(&robot, &problem, seed, request.repetitions);
+    problem.earlier = app.earlier_trials(&mut request, setup_key.as_deref()).await?;
+    let problem = compute(move || match Iet::new(&problem, seed) {
+        Ok(_) => Ok(problem),
+        Err(error) => Err(AppError::field("/execution", "invalid_problem", chain_text(&error))),
+    })
+    .await??;
+    let name = request.name.clone().unwrap_or_else(|| format!("{} on {}", action.name, robot.name));
+    request.name = Some(name.clone());
+    request.seed = Some(seed);
+    let work = ExecutionWork {
+        action: request.action.clone(),
+        robot: request.robot.clone(),
+        world: request.world.clone(),
+        problem,
+        setup_key,
+        seed,
+        repetitions: request.repetitions,
+        max_evaluations_per_s: request.max_evaluations_per_s,
+    };
+    Ok(again(name, CreateJob::Execution(Box::new(request)), work))
+}
+
+/// The same work once more, with the same seed.
+pub(super) fn again(name: String, request: CreateJob, work: ExecutionWork) -> Resolved {
+    let uses =
+        Usage { action: Some(work.action.clone()), robot: Some(work.robot.clone()), world: Some(work.world.clone()) };
+    let goals = u32::try_from(work.problem.goals.len()).unwrap_or(u32::MAX);
+    let progress = JobProgress { repetitions: work.repetitions, goals, ..JobProgress::default() };
+    Resolved { name, request, work: Work::Execution(Box::new(work)), uses, progress, experiment: None }
+}
+
+/// The cost of all repetitions, from a preview of the first one.
+///
+/// # Errors
+/// `Invalid` if the preview breaks off.
+pub(super) fn estimate(work: &ExecutionWork, cost: TrialCost<'_>) -> Result<CostEstimate, AppError> {
+    let first = cost.try_out(&work.problem, work.seed, PREVIEW_TIME)?;
+    let basis = first.preview.basis();
+    let evaluations = first.preview.whole() * f64::from(work.repetitions);
+    let paced_s = work.max_evaluations_per_s.map_or(0.0, |rate| evaluations / rate);
+    Ok(cost.of(evaluations, &[first], paced_s, basis))
+}
+
+/// Checks the numbers and names of a request before anything is looked up.
+fn bounds(request: &ExecutionRequest) -> Vec<FieldError> {
+    let mut errors = Vec::new();
+    let mut wrong = |pointer: &str, detail: String| errors.push(FieldError::new(pointer, "out_of_range", detail));
+    if !(1..=MAX_REPETITIONS).contains(&request.repetitions) {
+        wrong("/repetitions", format!("repetitions is {}: give 1 to {MAX_REPETITIONS}", request.repetitions));
+    }
+    let last = SEED_BOUND - u64::from(MAX_REPETITIONS);
+    if let Some(seed) = request.seed.filter(|seed| *seed >= last) {
+        wrong("/seed", format!("seed is {seed}: give one below {last}"));
+    }
+    if let Some(rate) = request.max_evaluations_per_s.filter(|rate| !(rate.is_finite() && *rate >= 0.1)) {
+        wrong("/max_evaluations_per_s", format!("max_evaluations_per_s is {rate}: give 0.1 or more"));
+    }
+    if let Some(error) = request.name.as_deref().and_then(|name| check_name("/name", name).err()) {
+        errors.extend(error.details);
+    }
+    errors
+}

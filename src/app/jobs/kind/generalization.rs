@@ -1,0 +1,68 @@
+//! Generalizations, from request to submission: demonstrations are looked up; nothing is computed before the worker.
+
+use super::Resolved;
+use crate::app::jobs::reference::missing;
+use crate::app::model::{AppError, CostEstimate, CreateJob, FieldError, GeneralizationRequest, JobProgress, Work};
+use crate::app::ports::Usage;
+use crate::app::{App, check_name};
+use std::collections::BTreeSet;
+
+/// Maximum number of demonstrations of one action.
+const MAX_DEMONSTRATIONS: usize = 1000;
+
+/// Checks a request.
+///
+/// # Errors
+/// `Invalid` with every wrong place.
+pub(super) async fn resolve(app: &App, request: GeneralizationRequest) -> Result<Resolved, AppError> {
+    check_name("/name", &request.name)?;
+    let mut errors = Vec::new();
+    if !(request.t_min_s.is_finite() && request.t_min_s > 0.0) {
+        let detail = format!("t_min_s is {}: give a time above 0", request.t_min_s);
+        errors.push(FieldError::new("/t_min_s", "out_of_range", detail));
+    }
+    if request.demonstrations.is_empty() || request.demonstrations.len() > MAX_DEMONSTRATIONS {
+        let count = request.demonstrations.len();
+        let detail = format!("{count} demonstrations are named: give 1 to {MAX_DEMONSTRATIONS}");
+        errors.push(FieldError::new("/demonstrations", "out_of_range", detail));
+    }
+    let mut seen = BTreeSet::new();
+    for (index, id) in request.demonstrations.iter().enumerate().take(MAX_DEMONSTRATIONS) {
+        let pointer = format!("/demonstrations/{index}");
+        if !seen.insert(id) {
+            errors.push(FieldError::new(pointer, "duplicate", format!("{id} is named twice: name it once")));
+            continue;
+        }
+        match app.ports.store.demonstration(id).await {
+            Ok(view) => {
+                if let Some(reason) = view.excluded {
+                    let detail = format!("{id} is excluded ({reason}): include it again or omit it");
+                    errors.push(FieldError::new(pointer, "excluded", detail));
+                }
+            }
+            Err(error) => errors.push(missing(pointer, error)?),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(AppError::invalid(errors));
+    }
+    Ok(again(request.name.clone(), CreateJob::Generalization(request.clone()), request))
+}
+
+/// The same work once more.
+pub(super) fn again(name: String, request: CreateJob, work: GeneralizationRequest) -> Resolved {
+    Resolved {
+        name,
+        request,
+        work: Work::Generalization(work),
+        uses: Usage::default(),
+        progress: JobProgress { repetitions: 1, ..JobProgress::default() },
+        experiment: None,
+    }
+}
+
+/// The cost of reading and averaging.
+pub(super) fn estimate() -> CostEstimate {
+    let basis = "a generalization needs no evaluations".to_owned();
+    CostEstimate { evaluations: 0, simulated_s: 0.1, robot_s: 0.0, text: basis.clone(), basis }
+}

@@ -1,0 +1,45 @@
+//! Dry runs: is a job acceptable, and what would it cost?
+
+use super::kind;
+use crate::app::model::{AppError, CostEstimate, CreateJob, ErrorKind, Validation};
+use crate::app::{App, compute};
+use crate::framework::execution::{Chosen, ROBOT_TRIAL_S};
+use std::sync::Arc;
+
+/// Longest accepted duration of a trial on a robot: one day.
+const MAX_TRIAL_S: f64 = 86_400.0;
+
+impl App {
+    /// Checks a job as [`App::create_job`] would, without creating it, and estimates its cost. A trial on a robot is
+    /// assumed to take `robot_trial_s` seconds (15 if absent).
+    ///
+    /// # Errors
+    /// Only if the service is at fault; problems of the request are part of the answer.
+    pub async fn validate_job(&self, request: CreateJob, robot_trial_s: Option<f64>) -> Result<Validation, AppError> {
+        match self.preview(request, robot_trial_s.unwrap_or(ROBOT_TRIAL_S)).await {
+            Ok((estimate, chosen)) => {
+                Ok(Validation { valid: true, errors: Vec::new(), estimate: Some(estimate), chosen })
+            }
+            Err(error) if error.kind == ErrorKind::Invalid => {
+                Ok(Validation { valid: false, errors: error.details, estimate: None, chosen: None })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    async fn preview(
+        &self,
+        request: CreateJob,
+        robot_trial_s: f64,
+    ) -> Result<(CostEstimate, Option<Chosen>), AppError> {
+        if !(robot_trial_s > 0.0 && robot_trial_s <= MAX_TRIAL_S) {
+            let detail = format!("robot_trial_s is {robot_trial_s}: give a time above 0 and up to {MAX_TRIAL_S} s");
+            return Err(AppError::field("/robot_trial_s", "out_of_range", detail));
+        }
+        let resolved = kind::resolve(self, request).await?;
+        let chosen = resolved.chosen().cloned();
+        let clock = Arc::clone(&self.ports.clock);
+        let estimate = compute(move || kind::estimate(&resolved, robot_trial_s, clock.as_ref())).await??;
+        Ok((estimate, chosen))
+    }
+}

@@ -1,0 +1,28 @@
+//! All an execution needs, resolved when it was submitted.
+
+use super::id::{ActionId, RobotId, WorldId};
+use crate::framework::execution::Problem;
+use serde::{Deserialize, Serialize};
+
+/// An execution, self-contained.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExecutionWork {
+    /// What was named in the request; shown with the runs.
+    pub action: ActionId,
+    /// The robot named.
+    pub robot: RobotId,
+    /// The world named.
+    pub world: WorldId,
+    /// Goals, robot, world and method.
+    pub problem: Problem,
+    /// Digest of everything that determines an observation: later runs with the same one may begin with these runs'
+    /// trials.
+    #[serde(default, rename = "setting")]
+    pub setup_key: Option<String>,
+    /// Seed of repetition 0; repetition r uses seed + r.
+    pub seed: u64,
+    /// Number of runs.
+    pub repetitions: u32,
+    /// Slows the job down to about so many evaluations a second.
+    pub max_evaluations_per_s: Option<f64>,
+}

@@ -1,0 +1,251 @@
+//! A claimed job and its lease: every write of a worker goes through its claim.
+//!
+//! # Invariants
+//! - A claim that may no longer hold stops the work: renewals that fail for half the lease count as a lost lease, so the
+//!   worker gives up before another one can claim the job.
+//! - [`ClaimedJob::settle`] is the only answer to pause, cancel and shutdown. Whatever happens between reading a state
+//!   and acting on it, the job ends up in a state nobody holds, or the work goes on.
+
+use super::Settings;
+use crate::app::Ports;
+use crate::app::model::JobFailure;
+use crate::app::ports::{Advance, Claim, StoreError, Transition, Wake};
+use crate::framework::job::{Event, State};
+use tokio::sync::watch;
+use tokio::task::JoinHandle;
+use tokio::time::Instant;
+use tokio_util::sync::CancellationToken;
+
+/// Why a worker loses a job.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum LeaseLost {
+    /// The claim no longer holds, or cannot be confirmed.
+    #[error("the lease is lost")]
+    Expired,
+    /// The store failed; the job is taken back when its lease ends.
+    #[error(transparent)]
+    Store(StoreError),
+}
+
+/// Why work on a job stops before its end.
+#[derive(Debug)]
+pub(super) enum Stop {
+    /// The job was paused, cancelled or given back in an orderly way.
+    Released,
+    /// Another worker may have the job.
+    Lost(LeaseLost),
+    /// The job cannot be completed.
+    Failed {
+        /// Stable code.
+        code: &'static str,
+        /// The reason, with the numbers.
+        message: String,
+    },
+}
+
+impl Stop {
+    /// A failure with a stable code.
+    pub(super) fn failed(code: &'static str, message: impl Into<String>) -> Self {
+        Self::Failed { code, message: message.into() }
+    }
+}
+
+impl From<LeaseLost> for Stop {
+    fn from(lost: LeaseLost) -> Self {
+        Self::Lost(lost)
+    }
+}
+
+impl From<StoreError> for Stop {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::Corrupt { .. } => Self::failed("corrupt_input", error.to_string()),
+            error => Self::Lost(LeaseLost::Store(error)),
+        }
+    }
+}
+
+/// The event with which a worker answers `state`, or `None` if there is nothing to answer.
+fn answer(state: State, is_stopping: bool) -> Option<Event> {
+    match state {
+        State::Pausing => Some(Event::Rest),
+        State::Cancelling => Some(Event::Stop),
+        State::Preparing | State::Running if is_stopping => Some(Event::Requeue),
+        _ => None,
+    }
+}
+
+/// Wakes a worker that waits: its lease is lost, the server stops, or a user asked for something.
+#[derive(Clone)]
+pub(super) struct Interrupt {
+    stop: CancellationToken,
+    lost: CancellationToken,
+    state: watch::Receiver<State>,
+}
+
+impl Interrupt {
+    /// Returns when the work should look up from what it does.
+    pub(super) async fn raised(&mut self) {
+        let asked = async {
+            let asks = |state: &State| answer(*state, false).is_some();
+            // Without a heartbeat there is no more news: the other two tokens decide.
+            if self.state.wait_for(asks).await.is_err() {
+                std::future::pending::<()>().await;
+            }
+        };
+        tokio::select! {
+            () = self.lost.cancelled() => {}
+            () = self.stop.cancelled() => {}
+            () = asked => {}
+        }
+    }
+}
+
+/// A job in a worker's hands; its lease is kept alive until this is dropped.
+pub(super) struct ClaimedJob {
+    pub(super) ports: Ports,
+    pub(super) settings: Settings,
+    claim: Claim,
+    stop: CancellationToken,
+    lost: CancellationToken,
+    /// The job's state as last read.
+    state: watch::Sender<State>,
+    heartbeat: JoinHandle<()>,
+}
+
+impl ClaimedJob {
+    /// Keeps the lease of `claim` alive; `stop` is cancelled when the server stops.
+    pub(super) fn new(ports: Ports, settings: Settings, claim: Claim, stop: CancellationToken) -> Self {
+        let lost = CancellationToken::new();
+        let state = watch::Sender::new(State::Preparing);
+        let beating = renew(ports.clone(), settings.clone(), claim.clone(), lost.clone(), state.clone());
+        Self { ports, settings, claim, stop, lost, state, heartbeat: tokio::spawn(beating) }
+    }
+
+    /// Whether the server stops.
+    pub(super) fn is_stopping(&self) -> bool {
+        self.stop.is_cancelled()
+    }
+
+    /// Whether work should look up from what it does.
+    pub(super) fn is_interrupted(&self) -> bool {
+        self.is_stopping() || self.lost.is_cancelled() || answer(*self.state.borrow(), false).is_some()
+    }
+
+    /// Wakes work that waits.
+    pub(super) fn interrupt(&self) -> Interrupt {
+        Interrupt { stop: self.stop.clone(), lost: self.lost.clone(), state: self.state.subscribe() }
+    }
+
+    /// Writes a step of the work, and wakes whoever follows the job.
+    pub(super) async fn advance(&self, step: Advance) -> Result<State, LeaseLost> {
+        if self.lost.is_cancelled() {
+            return Err(LeaseLost::Expired);
+        }
+        match self.ports.store.advance(&self.claim, step, self.ports.clock.now()).await {
+            Ok(state) => {
+                self.state.send_replace(state);
+                self.ports.events.publish(Wake::Job(self.claim.job.clone()));
+                Ok(state)
+            }
+            Err(StoreError::LeaseLost { .. }) => Err(LeaseLost::Expired),
+            Err(error) => Err(LeaseLost::Store(error)),
+        }
+    }
+
+    /// Tells the job's state machine what happens. A user may have changed the state since it was read; if the machine
+    /// therefore refuses the event, the answer is the present state.
+    async fn transition(&self, transition: Transition) -> Result<State, LeaseLost> {
+        match self.advance(Advance { transition: Some(transition), ..Advance::default() }).await {
+            Err(LeaseLost::Store(StoreError::Transition(refused))) => Ok(refused.state),
+            other => other,
+        }
+    }
+
+    /// Begins the work, unless something else was asked for meanwhile.
+    pub(super) async fn start(&self) -> Result<(), Stop> {
+        let state = self.transition(Transition::plain(Event::Start)).await?;
+        self.settle(state).await
+    }
+
+    /// Does what a user or a stopping server asked for, `state` being the job's; `Ok` if the work goes on. Everything
+    /// worth keeping must have been written.
+    ///
+    /// # Errors
+    /// [`Stop::Released`] after the job was paused, cancelled or given back.
+    pub(super) async fn settle(&self, mut state: State) -> Result<(), Stop> {
+        // A refused answer means that the user asked for something else meanwhile: then that is done.
+        while let Some(event) = answer(state, self.is_stopping()) {
+            state = self.transition(Transition::plain(event)).await?;
+        }
+        match state {
+            State::Preparing | State::Running => Ok(()),
+            _ => Err(Stop::Released),
+        }
+    }
+
+    /// Pauses the job because a person has to look: only a person resumes it.
+    pub(super) async fn rest(&self, reason: String) -> Stop {
+        let because = |event| Transition { reason: Some(reason.clone()), ..Transition::plain(event) };
+        let mut state = State::Running;
+        loop {
+            let event = match state {
+                State::Running => Event::Pause,
+                State::Pausing => Event::Rest,
+                // Nobody holds it, or it is being cancelled.
+                state => return self.settle(state).await.err().unwrap_or(Stop::Released),
+            };
+            match self.transition(because(event)).await {
+                Ok(next) => state = next,
+                Err(lost) => return lost.into(),
+            }
+        }
+    }
+
+    /// Ends the job with its result.
+    pub(super) async fn succeed(&self, step: Advance) -> Result<(), LeaseLost> {
+        let transition = Some(Transition::plain(Event::Succeed));
+        self.advance(Advance { transition, ..step }).await.map(drop)
+    }
+
+    /// Ends the job without a result.
+    pub(super) async fn fail(&self, code: &str, message: String) -> Result<(), LeaseLost> {
+        let failure = JobFailure { code: code.to_owned(), message: message.clone() };
+        self.transition(Transition { event: Event::Fail, reason: Some(message), failure: Some(failure) })
+            .await
+            .map(drop)
+    }
+}
+
+impl Drop for ClaimedJob {
+    fn drop(&mut self) {
+        self.heartbeat.abort();
+    }
+}
+
+/// Renews the lease, and notes the state it finds.
+async fn renew(ports: Ports, settings: Settings, claim: Claim, lost: CancellationToken, state: watch::Sender<State>) {
+    let mut heard = Instant::now();
+    loop {
+        tokio::time::sleep(settings.heartbeat).await;
+        match ports.store.heartbeat(&claim, settings.lease).await {
+            Ok(found) => {
+                heard = Instant::now();
+                state.send_replace(found);
+            }
+            Err(StoreError::LeaseLost { .. }) => return lost.cancel(),
+            Err(error) => {
+                tracing::warn!(job.id = %claim.job, error = %error, "a heartbeat failed");
+                if heard.elapsed() > settings.lease / 2 {
+                    return lost.cancel();
+                }
+            }
+        }
+    }
+}
+
+/// CPU work on its own thread; a panic there ends the job, for it would come again.
+pub(super) async fn blocking<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Result<T, Stop> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.map_err(|panic| Stop::failed("internal", format!("the computation panicked: {panic}")))
+}
