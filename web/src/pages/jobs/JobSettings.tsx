@@ -27,24 +27,38 @@ export function JobSettings({ job }: { job: Job }) {
 }
 
 function requestFacts(request: CreateJob): Fact[] {
-  if (request.kind === "generalization") {
-    return [
-      { name: "Demonstrations", value: request.demonstrations.length },
-      { name: "Min. time between goals", value: `${formatNumber(request.t_min_s)} s` },
-      { name: "Weighting", value: humanize(request.weighting) },
-      { name: "Features", value: request.features?.join(", ") ?? "all" },
-    ];
+  switch (request.kind) {
+    case "generalization":
+      return [
+        { name: "Demonstrations", value: request.demonstrations.length },
+        { name: "Min. time between goals", value: `${formatNumber(request.t_min_s)} s` },
+        { name: "Weighting", value: humanize(request.weighting) },
+        { name: "Features", value: request.features?.join(", ") ?? "all" },
+      ];
+    case "experiment": {
+      const { paper_table: table, cells = [], matrix } = request;
+      return [
+        ...(table == null ? [] : [{ name: "Paper tables", value: String(table) }]),
+        ...(cells.length === 0 ? [] : [{ name: "Custom cells", value: cells.length }]),
+        ...(matrix == null ? [] : [{ name: "Matrix presets", value: matrix.presets.join(", ") }]),
+        { name: "First seed", value: String(request.seed) },
+        { name: "Repetitions per cell", value: request.repetitions ?? 1 },
+      ];
+    }
+    case "execution":
+      return executionFacts(request);
+    default:
+      return plainFacts(request);
   }
-  if (request.kind === "experiment") {
-    const { paper_table: table, cells = [], matrix } = request;
-    return [
-      ...(table == null ? [] : [{ name: "Paper tables", value: String(table) }]),
-      ...(cells.length === 0 ? [] : [{ name: "Custom cells", value: cells.length }]),
-      ...(matrix == null ? [] : [{ name: "Matrix presets", value: matrix.presets.join(", ") }]),
-      { name: "First seed", value: String(request.seed) },
-      { name: "Repetitions per cell", value: request.repetitions ?? 1 },
-    ];
-  }
+}
+
+/** The request of a kind this dashboard has no words for. */
+function plainFacts(request: object): Fact[] {
+  const fields = Object.entries(request).filter(([name, value]) => name !== "kind" && value != null);
+  return fields.map(([name, value]) => ({ name: humanize(name), value: JSON.stringify(value) }));
+}
+
+function executionFacts(request: Extract<CreateJob, { kind: "execution" }>): Fact[] {
   const { execution, seed, repetitions = 1, earlier_runs: earlier } = request;
   const given: [string, ReactNode][] = [
     ["Action", <ActionLink key="action" id={request.action} />],
