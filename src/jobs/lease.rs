@@ -249,3 +249,42 @@ pub(super) async fn blocking<T: Send + 'static>(work: impl FnOnce() -> T + Send 
     let done = tokio::task::spawn_blocking(work).await;
     done.map_err(|panic| Stop::failed("internal", format!("the computation panicked: {panic}")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_answer_is_accepted_and_leads_to_a_state_nobody_holds_or_to_work() {
+        for found in State::ALL {
+            for is_stopping in [false, true] {
+                let mut state = found;
+                while let Some(event) = answer(state, is_stopping) {
+                    state = state.apply(event).unwrap();
+                }
+                let works = !is_stopping && matches!(state, State::Preparing | State::Running);
+                assert!(works || !state.is_held(), "{found:?} becomes {state:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_a_user_asked_last_is_done_whatever_was_answered_before() {
+        // The worker reads a state, a user asks for something else, and the worker's answer meets the new state.
+        for (read, asked, expected) in [
+            (State::Pausing, Event::Resume, State::Running),
+            (State::Pausing, Event::Cancel, State::Cancelled),
+            (State::Running, Event::Pause, State::Paused),
+            (State::Running, Event::Cancel, State::Cancelled),
+        ] {
+            let mut present = read.apply(asked).unwrap();
+            let mut known = read;
+            let is_stopping = read == State::Running;
+            while let Some(event) = answer(known, is_stopping) {
+                present = present.apply(event).unwrap_or_else(|refused| refused.state);
+                known = present;
+            }
+            assert_eq!(present, expected, "{read:?} {asked:?}");
+        }
+    }
+}
