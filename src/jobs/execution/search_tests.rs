@@ -25,6 +25,13 @@ struct Journal {
     calls: u64,
 }
 
+impl Journal {
+    /// Whether a trial was begun and nothing was heard of it.
+    fn is_hanging(&self) -> bool {
+        self.seen.len() < self.begun.len()
+    }
+}
+
 /// A robot of a simulated kind that keeps a journal. It dies in the middle of every `dies_every`th call.
 struct Robot {
     world: Box<dyn World>,
@@ -122,7 +129,7 @@ async fn driven(problem: &Problem, journal: &Arc<Mutex<Journal>>, dies_every: u6
             }
             SliceEnd::Due => {
                 // Killed: memory is lost, what was told since the checkpoint is asked for again.
-                let is_hanging = journal.lock().unwrap().seen.len() < journal.lock().unwrap().begun.len();
+                let is_hanging = journal.lock().unwrap().is_hanging();
                 let state = if is_hanging { saved } else { search.iet.state() };
                 iet = Iet::resume(problem, state).unwrap();
             }
