@@ -47,7 +47,7 @@ fn run_with_unknown_trials(problem: &Problem, seed: u64, size: usize, nth: u64) 
 #[case("wax", "sst", 1, 97)]
 #[case("wax", "pso", 8, 97)]
 #[case("wax", "model", 1, 5)]
-#[case("paint", "sst", 8, 97)]
+#[case("paint", "sst", 1, 97)]
 fn an_unknown_trial_teaches_nothing_and_is_asked_for_again_after_a_resume(
     #[case] preset: &str,
     #[case] method: &str,
