@@ -324,7 +324,7 @@ pub(crate) async fn ends_a_job_once_with_its_results(store: &dyn Store) {
     let step = Advance { runs: runs.clone(), ..transition(Event::Succeed) };
     assert_eq!(store.advance(&claim, step.clone(), AT).await.unwrap(), State::Succeeded);
     assert!(matches!(store.advance(&claim, step, AT).await, Err(StoreError::LeaseLost { .. })));
-    let asked = store.ask(&id, Transition::plain(Event::Cancel), AT).await;
+    let asked = store.apply_event(&id, Transition::plain(Event::Cancel), AT).await;
     assert!(matches!(asked, Err(StoreError::Transition(_))));
     let ended = store.job(&id).await.unwrap();
     assert_eq!(ended.result.runs, [runs[0].view.id.clone(), runs[1].view.id.clone()]);
@@ -399,7 +399,7 @@ pub(crate) async fn takes_back_jobs_whose_lease_ran_out(store: &dyn Store) {
 
 pub(crate) async fn steers_jobs_as_the_machine_allows(store: &dyn Store) {
     let id = submitted(store, 1).await;
-    let ask = async |event| store.ask(&id, Transition::plain(event), AT).await.map(|job| job.state);
+    let ask = async |event| store.apply_event(&id, Transition::plain(event), AT).await.map(|job| job.state);
     assert_eq!(ask(Event::Pause).await.unwrap(), State::Paused);
     assert!(claimed(store).await.is_none());
     assert_eq!(ask(Event::Resume).await.unwrap(), State::Queued);
@@ -411,7 +411,7 @@ pub(crate) async fn steers_jobs_as_the_machine_allows(store: &dyn Store) {
     assert!(matches!(store.heartbeat(&claim, LEASE).await, Err(StoreError::LeaseLost { .. })));
     assert_eq!(ask(Event::Cancel).await.unwrap(), State::Cancelled);
     let missing = JobId::from_uuid(uuid(77));
-    let asked = store.ask(&missing, Transition::plain(Event::Cancel), AT).await;
+    let asked = store.apply_event(&missing, Transition::plain(Event::Cancel), AT).await;
     assert!(matches!(asked, Err(StoreError::NotFound { .. })));
 }
 

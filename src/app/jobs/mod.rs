@@ -109,7 +109,7 @@ impl App {
     }
 
     async fn ask(&self, id: &JobId, event: Event) -> Result<JobView, AppError> {
-        let job = self.ports.store.ask(id, Transition::plain(event), self.now()).await?;
+        let job = self.ports.store.apply_event(id, Transition::plain(event), self.now()).await?;
         self.ports.events.publish(Wake::Job(id.clone()));
         if job.state == State::Queued {
             self.ports.events.publish(Wake::Queued);

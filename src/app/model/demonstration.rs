@@ -65,3 +65,16 @@ pub struct PatchDemonstration {
     #[serde(default)]
     pub excluded: Option<String>,
 }
+
+impl DemonstrationView {
+    /// The demonstration after a change, one revision later. An empty reason for exclusion takes it in again.
+    #[must_use]
+    pub fn patched(self, patch: PatchDemonstration) -> Self {
+        let PatchDemonstration { name, excluded } = patch;
+        let excluded = match excluded {
+            Some(reason) => Some(reason).filter(|reason| !reason.is_empty()),
+            None => self.excluded,
+        };
+        Self { name: name.unwrap_or(self.name), excluded, revision: self.revision + 1, ..self }
+    }
+}

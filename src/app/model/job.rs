@@ -51,7 +51,6 @@ pub struct JobResult {
     /// The runs, of an execution, in the order of repetitions.
     pub runs: Vec<RunId>,
     /// The experiment, from its submission on.
-    #[serde(default)]
     pub experiment: Option<ExperimentId>,
 }
 

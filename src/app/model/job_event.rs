@@ -2,7 +2,6 @@
 
 use super::id::{JobId, RunId, TrajectoryId};
 use super::job_progress::{GoalProgress, JobProgress, TrialProgress};
-use super::null_as_infinite;
 use super::time::Timestamp;
 use crate::framework::job::State;
 use serde::{Deserialize, Serialize};
@@ -65,7 +64,6 @@ pub enum EventData {
         /// Evaluations.
         evaluations: u64,
         /// Discrepancy, features' unit.
-        #[serde(deserialize_with = "null_as_infinite::number")]
         discrepancy: f64,
         /// Share painted, %.
         painted_percent: Option<f64>,

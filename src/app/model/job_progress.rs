@@ -1,6 +1,5 @@
 //! Progress of a job: counts, finished goals, trials.
 
-use super::null_as_infinite;
 use super::run::RunGoal;
 use crate::framework::method::per_goal::StopReason;
 use serde::{Deserialize, Serialize};
@@ -30,7 +29,6 @@ pub struct JobProgress {
     /// Finished goals of the present repetition; left out of events, which tell each goal once.
     pub finished_goals: Vec<GoalProgress>,
     /// Trials of the present repetition, where the method remembers each one; left out of events likewise.
-    #[serde(default)]
     pub trials: Vec<TrialProgress>,
 }
 
@@ -57,17 +55,14 @@ pub struct GoalProgress {
     /// Evaluations of this goal.
     pub evaluations: u64,
     /// Discrepancy of the observation up to this goal, features' unit.
-    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
     /// Why the goal ended.
     pub stop_reason: StopReason,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// What was observed there.
-    #[serde(deserialize_with = "null_as_infinite::numbers")]
     pub observation: Vec<f64>,
     /// Distance of the observation from the goal (Euclidean, features' unit): for a goal out of reach the best found.
-    #[serde(default)]
     pub residual: Option<f64>,
 }
 

@@ -16,7 +16,6 @@ mod job_cost;
 mod job_event;
 mod job_kind;
 mod job_progress;
-mod null_as_infinite;
 mod page;
 mod recognition;
 mod robot;

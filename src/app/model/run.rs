@@ -1,7 +1,6 @@
 //! Runs, their goals, trials and convergence, as they are shown.
 
 use super::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
-use super::null_as_infinite;
 use super::time::Timestamp;
 use crate::framework::Feature;
 use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
@@ -34,16 +33,12 @@ pub struct RunView {
     /// Evaluations of all goals.
     pub evaluations: u64,
     /// Discrepancy of the whole observation, features' unit.
-    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
     /// What the last goal's winner really does, where `discrepancy` is the value of one that was never executed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub true_discrepancy: Option<f64>,
     /// Whether the last goal's joints satisfy the constraints; true where there are none.
-    #[serde(default = "satisfied")]
     pub valid: bool,
     /// Where the fitness values of all goals come from, by count.
-    #[serde(default)]
     pub provenance: Tally,
     /// Share of the surface painted, %, in a world of coverage.
     pub painted_percent: Option<f64>,
@@ -59,16 +54,6 @@ pub struct RunView {
     pub created_at: Timestamp,
 }
 
-/// Runs of versions without constraints.
-fn satisfied() -> bool {
-    true
-}
-
-/// Winners of versions that executed every candidate.
-fn simulated() -> Provenance {
-    Provenance::Simulated
-}
-
 /// One goal of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunGoal {
@@ -77,31 +62,24 @@ pub struct RunGoal {
     /// Evaluations of this goal.
     pub evaluations: u64,
     /// Discrepancy of the observation up to this goal, features' unit.
-    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
     /// Why the goal ended.
     pub stop_reason: StopReason,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// What was observed there.
-    #[serde(deserialize_with = "null_as_infinite::numbers")]
     pub observation: Vec<f64>,
     /// What was asked for.
     pub goal: Vec<f64>,
     /// Distance of `observation` from `goal` (Euclidean, features' unit): for a goal out of reach the best found.
-    #[serde(default)]
     pub residual: Option<f64>,
     /// Where the winner's discrepancy comes from.
-    #[serde(default = "simulated")]
     pub winner: Provenance,
     /// What the winner really does, where `discrepancy` is the value of one that was never executed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub true_discrepancy: Option<f64>,
     /// Whether the joints satisfy the constraints; true where there are none.
-    #[serde(default = "satisfied")]
     pub feasible: bool,
     /// Where the fitness values of this goal come from, by count.
-    #[serde(default)]
     pub provenance: Tally,
 }
 
@@ -144,7 +122,6 @@ pub struct ConvergencePoint {
     /// Evaluations since the run began.
     pub evaluations: u64,
     /// Best discrepancy of the observation up to this goal.
-    #[serde(deserialize_with = "null_as_infinite::number")]
     pub discrepancy: f64,
 }
 

@@ -4,6 +4,7 @@ mod clock;
 mod evaluator;
 mod events;
 mod ids;
+pub mod rules;
 mod store;
 
 pub use clock::Clock;
@@ -11,6 +12,7 @@ pub use evaluator::{Evaluator, EvaluatorError, Evaluators, RunContext, TrialId, 
 pub use events::{Events, LocalEvents, Wake};
 pub use ids::{Ids, SEED_BOUND};
 pub use store::{
-    Advance, Claim, Claimed, IdempotencyKey, KeptTrials, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun,
-    Store, StoreError, Submitted, Transition, Usage,
+    Actions, Advance, Claim, Claimed, Demonstrations, Experiments, IdempotencyKey, Jobs, KeptTrials, NewDemonstration,
+    NewExperiment, NewJob, NewRobot, NewRun, Queue, Robots, Runs, Store, StoreError, Submitted, Transition, Usage,
+    Worlds,
 };

@@ -1,10 +1,13 @@
 //! Demonstrations and their samples.
 
-use super::rows::{checked, digest, json, number, one, page, value};
+use super::SqliteStore;
+use super::rows::{checked, digest, found, number, one, page};
 use super::statements::statements;
-use super::{SqliteStore, engine_error};
 use crate::app::model::{DemonstrationId, DemonstrationReport, DemonstrationView, Keyset, PatchDemonstration};
-use crate::app::ports::{NewDemonstration, StoreError};
+use crate::app::ports::rules::check_revision;
+use crate::app::ports::{Demonstrations, NewDemonstration, StoreError};
+use crate::store::documents::{self, Demonstration, Report};
+use async_trait::async_trait;
 use sqlx::sqlite::SqliteConnection;
 
 statements! {
@@ -20,124 +23,105 @@ statements! {
     DELETE = "DELETE FROM demonstrations WHERE id = ?1";
 }
 
-pub(super) async fn insert(store: &SqliteStore, new: NewDemonstration) -> Result<(), StoreError> {
-    let (view, report) = (json(&new.view)?, json(&new.report)?);
-    let revision = number(new.view.revision)?;
-    let sha256 = digest(&new.samples);
-    store
-        .writer
-        .write(move |connection| {
-            Box::pin(async move {
-                let id = new.view.id.as_str();
-                sqlx::query(INSERT)
-                    .bind(id)
-                    .bind(&new.view.name)
-                    .bind(revision)
-                    .bind(&new.view.excluded)
-                    .bind(&new.view.sha256)
-                    .bind(new.view.created_at.0)
-                    .bind(view)
-                    .bind(report)
-                    .execute(&mut *connection)
-                    .await
-                    .map_err(engine_error)?;
-                sqlx::query(INSERT_SAMPLES)
-                    .bind(id)
-                    .bind(sha256)
-                    .bind(new.samples)
-                    .execute(connection)
-                    .await
-                    .map_err(engine_error)?;
-                Ok(())
-            })
-        })
-        .await
+#[async_trait]
+impl Demonstrations for SqliteStore {
+    async fn insert_demonstration(&self, new: NewDemonstration) -> Result<(), StoreError> {
+        self.writer.write(move |connection| Box::pin(insert(connection, new))).await
+    }
+
+    async fn demonstration(&self, id: &DemonstrationId) -> Result<DemonstrationView, StoreError> {
+        one::<Demonstration>(&self.readers, ONE, "demonstration", id.as_str()).await
+    }
+
+    async fn demonstration_report(&self, id: &DemonstrationId) -> Result<DemonstrationReport, StoreError> {
+        one::<Report>(&self.readers, REPORT, "demonstration", id.as_str()).await
+    }
+
+    async fn demonstration_samples(&self, id: &DemonstrationId) -> Result<Vec<u8>, StoreError> {
+        let row: Option<(String, Vec<u8>)> =
+            sqlx::query_as(SAMPLES).bind(id.as_str()).fetch_optional(&self.readers).await?;
+        let (sha256, data) = found(row, "demonstration", id.as_str())?;
+        checked(id.as_str(), &sha256, data)
+    }
+
+    async fn demonstrations(&self, keyset: &Keyset) -> Result<Vec<DemonstrationView>, StoreError> {
+        page::<Demonstration>(&self.readers, PAGE, keyset).await
+    }
+
+    async fn demonstrations_with_content(&self, sha256: &str) -> Result<Vec<DemonstrationId>, StoreError> {
+        let rows: Vec<String> = sqlx::query_scalar(WITH_CONTENT).bind(sha256).fetch_all(&self.readers).await?;
+        rows.iter().map(|text| documents::read::<Demonstration>("a list", text).map(|view| view.id)).collect()
+    }
+
+    async fn patch_demonstration(
+        &self,
+        id: &DemonstrationId,
+        change: PatchDemonstration,
+        if_match: Option<u64>,
+    ) -> Result<DemonstrationView, StoreError> {
+        let id = id.clone();
+        self.writer.write(move |connection| Box::pin(patch(connection, id, change, if_match))).await
+    }
+
+    async fn delete_demonstration(&self, id: &DemonstrationId, if_match: Option<u64>) -> Result<(), StoreError> {
+        let id = id.clone();
+        self.writer.write(move |connection| Box::pin(delete(connection, id, if_match))).await
+    }
 }
 
-pub(super) async fn get(store: &SqliteStore, id: &str) -> Result<DemonstrationView, StoreError> {
-    one(&store.readers, ONE, "demonstration", id).await
+async fn insert(connection: &mut SqliteConnection, new: NewDemonstration) -> Result<(), StoreError> {
+    let NewDemonstration { view, report, samples } = new;
+    sqlx::query(INSERT)
+        .bind(view.id.as_str())
+        .bind(&view.name)
+        .bind(number(view.revision)?)
+        .bind(&view.excluded)
+        .bind(&view.sha256)
+        .bind(view.created_at.0)
+        .bind(documents::write::<Demonstration>(view.clone())?)
+        .bind(documents::write::<Report>(report)?)
+        .execute(&mut *connection)
+        .await?;
+    sqlx::query(INSERT_SAMPLES).bind(view.id.as_str()).bind(digest(&samples)).bind(samples).execute(connection).await?;
+    Ok(())
 }
 
-pub(super) async fn report(store: &SqliteStore, id: &str) -> Result<DemonstrationReport, StoreError> {
-    one(&store.readers, REPORT, "demonstration", id).await
-}
-
-pub(super) async fn samples(store: &SqliteStore, id: &str) -> Result<Vec<u8>, StoreError> {
-    let row: Option<(String, Vec<u8>)> =
-        sqlx::query_as(SAMPLES).bind(id).fetch_optional(&store.readers).await.map_err(engine_error)?;
-    let (sha256, data) = row.ok_or_else(|| StoreError::NotFound { kind: "demonstration", id: id.to_owned() })?;
-    checked(id, &sha256, data)
-}
-
-pub(super) async fn list(store: &SqliteStore, keyset: &Keyset) -> Result<Vec<DemonstrationView>, StoreError> {
-    page(&store.readers, PAGE, keyset).await
-}
-
-pub(super) async fn with_content(store: &SqliteStore, sha256: &str) -> Result<Vec<DemonstrationId>, StoreError> {
-    let rows: Vec<String> =
-        sqlx::query_scalar(WITH_CONTENT).bind(sha256).fetch_all(&store.readers).await.map_err(engine_error)?;
-    rows.iter().map(|text| value::<DemonstrationView>("demonstration", text).map(|view| view.id)).collect()
-}
-
-pub(super) async fn patch(
-    store: &SqliteStore,
-    id: String,
-    patch: PatchDemonstration,
+async fn patch(
+    connection: &mut SqliteConnection,
+    id: DemonstrationId,
+    change: PatchDemonstration,
     if_match: Option<u64>,
 ) -> Result<DemonstrationView, StoreError> {
-    store
-        .writer
-        .write(move |connection| {
-            Box::pin(async move {
-                let mut view = matching(connection, &id, if_match).await?;
-                if let Some(name) = patch.name {
-                    view.name = name;
-                }
-                if let Some(reason) = patch.excluded {
-                    view.excluded = Some(reason).filter(|reason| !reason.is_empty());
-                }
-                view.revision += 1;
-                sqlx::query(UPDATE)
-                    .bind(&id)
-                    .bind(&view.name)
-                    .bind(number(view.revision)?)
-                    .bind(&view.excluded)
-                    .bind(json(&view)?)
-                    .execute(connection)
-                    .await
-                    .map_err(engine_error)?;
-                Ok(view)
-            })
-        })
-        .await
+    let view = matching(connection, &id, if_match).await?.patched(change);
+    sqlx::query(UPDATE)
+        .bind(id.as_str())
+        .bind(&view.name)
+        .bind(number(view.revision)?)
+        .bind(&view.excluded)
+        .bind(documents::write::<Demonstration>(view.clone())?)
+        .execute(connection)
+        .await?;
+    Ok(view)
 }
 
-pub(super) async fn delete(store: &SqliteStore, id: String, if_match: Option<u64>) -> Result<(), StoreError> {
-    store
-        .writer
-        .write(move |connection| {
-            Box::pin(async move {
-                matching(connection, &id, if_match).await?;
-                sqlx::query(DELETE).bind(id).execute(connection).await.map_err(engine_error)?;
-                Ok(())
-            })
-        })
-        .await
+async fn delete(
+    connection: &mut SqliteConnection,
+    id: DemonstrationId,
+    if_match: Option<u64>,
+) -> Result<(), StoreError> {
+    matching(connection, &id, if_match).await?;
+    sqlx::query(DELETE).bind(id.as_str()).execute(connection).await?;
+    Ok(())
 }
 
+/// The demonstration, if it has the revision named.
 async fn matching(
     connection: &mut SqliteConnection,
-    id: &str,
+    id: &DemonstrationId,
     if_match: Option<u64>,
 ) -> Result<DemonstrationView, StoreError> {
-    let row: Option<String> =
-        sqlx::query_scalar(ONE).bind(id).fetch_optional(connection).await.map_err(engine_error)?;
-    let text = row.ok_or_else(|| StoreError::NotFound { kind: "demonstration", id: id.to_owned() })?;
-    let view: DemonstrationView = value(id, &text)?;
-    match if_match {
-        Some(expected) if expected != view.revision => {
-            Err(StoreError::Revision { id: id.to_owned(), present: view.revision, expected })
-        }
-        _ => Ok(view),
-    }
+    let row: Option<String> = sqlx::query_scalar(ONE).bind(id.as_str()).fetch_optional(connection).await?;
+    let view = documents::read::<Demonstration>(id.as_str(), &found(row, "demonstration", id.as_str())?)?;
+    check_revision(&view, if_match)?;
+    Ok(view)
 }

@@ -1,12 +1,14 @@
-//! Experiments: the plan, written with its job; the rows, written by [`super::claims`] with the job's progress.
+//! Experiments: the plan, written with its job; the rows, written by [`super::queue`] with the job's progress.
 
-use super::rows::{json, one, value};
+use super::SqliteStore;
+use super::rows::{count, found, one};
 use super::statements::statements;
-use super::{SqliteStore, engine_error};
 use crate::app::model::{ExperimentId, ExperimentView, JobId, Keyset, RowFilter};
-use crate::app::ports::{NewExperiment, StoreError};
-use crate::framework::experiment::{Plan, RunRow};
+use crate::app::ports::{Experiments, NewExperiment, StoreError};
+use crate::framework::experiment::{self, RunRow};
 use crate::framework::job::State;
+use crate::store::documents::{self, Experiment, Plan, Row};
+use async_trait::async_trait;
 use sqlx::sqlite::SqliteConnection;
 
 macro_rules! select_views {
@@ -35,89 +37,82 @@ statements! {
 
 type ViewRow = (String, String, i64);
 
-fn view((view, state, finished_runs): ViewRow) -> Result<ExperimentView, StoreError> {
+fn view((document, state, finished_runs): ViewRow) -> Result<ExperimentView, StoreError> {
     let state = State::from_name(&state)
         .ok_or_else(|| StoreError::Corrupt { what: "state of an experiment's job".to_owned(), cause: state.clone() })?;
-    let view: ExperimentView = value("experiment", &view)?;
-    Ok(ExperimentView { state, finished_runs: super::rows::count(finished_runs), ..view })
+    Ok(documents::read::<Experiment>("a list", &document)?.shown(state, count(finished_runs)))
 }
 
-pub(super) async fn get(store: &SqliteStore, id: &str) -> Result<ExperimentView, StoreError> {
-    let row: Option<ViewRow> =
-        sqlx::query_as(ONE).bind(id).fetch_optional(&store.readers).await.map_err(engine_error)?;
-    view(row.ok_or_else(|| StoreError::NotFound { kind: "experiment", id: id.to_owned() })?)
+#[async_trait]
+impl Experiments for SqliteStore {
+    async fn experiment(&self, id: &ExperimentId) -> Result<ExperimentView, StoreError> {
+        let row: Option<ViewRow> = sqlx::query_as(ONE).bind(id.as_str()).fetch_optional(&self.readers).await?;
+        view(found(row, "experiment", id.as_str())?)
+    }
+
+    async fn experiments(&self, keyset: &Keyset) -> Result<Vec<ExperimentView>, StoreError> {
+        let rows: Vec<ViewRow> = sqlx::query_as(PAGE)
+            .bind(keyset.before_id.as_deref())
+            .bind(i64::from(keyset.limit) + 1)
+            .fetch_all(&self.readers)
+            .await?;
+        rows.into_iter().map(view).collect()
+    }
+
+    async fn experiment_plan(&self, id: &ExperimentId) -> Result<experiment::Plan, StoreError> {
+        one::<Plan>(&self.readers, PLAN, "experiment", id.as_str()).await
+    }
+
+    async fn experiment_rows(&self, id: &ExperimentId, filter: &RowFilter) -> Result<Vec<RunRow>, StoreError> {
+        let after = filter.after.map_or((-1, -1), |run| (i64::from(run.cell), i64::from(run.repetition)));
+        let rows: Vec<String> = sqlx::query_scalar(ROWS)
+            .bind(id.as_str())
+            .bind(filter.cell)
+            .bind(after.0)
+            .bind(after.1)
+            .bind(filter.limit.map_or(-1, i64::from))
+            .fetch_all(&self.readers)
+            .await?;
+        rows.iter().map(|text| documents::read::<Row>(id.as_str(), text)).collect()
+    }
 }
 
-pub(super) async fn list(store: &SqliteStore, keyset: &Keyset) -> Result<Vec<ExperimentView>, StoreError> {
-    let rows: Vec<ViewRow> = sqlx::query_as(PAGE)
-        .bind(keyset.before_id.as_deref())
-        .bind(i64::from(keyset.limit) + 1)
-        .fetch_all(&store.readers)
-        .await
-        .map_err(engine_error)?;
-    rows.into_iter().map(view).collect()
-}
-
-pub(super) async fn plan(store: &SqliteStore, id: &str) -> Result<Plan, StoreError> {
-    one(&store.readers, PLAN, "experiment", id).await
-}
-
-pub(super) async fn rows(
-    store: &SqliteStore,
-    id: &ExperimentId,
-    filter: &RowFilter,
-) -> Result<Vec<RunRow>, StoreError> {
-    let after = filter.after.map_or((-1, -1), |run| (i64::from(run.cell), i64::from(run.repetition)));
-    let rows: Vec<String> = sqlx::query_scalar(ROWS)
-        .bind(id.as_str())
-        .bind(filter.cell)
-        .bind(after.0)
-        .bind(after.1)
-        .bind(filter.limit.map_or(-1, i64::from))
-        .fetch_all(&store.readers)
-        .await
-        .map_err(engine_error)?;
-    rows.iter().map(|text| value("row of an experiment", text)).collect()
-}
-
+/// Keeps the experiment that a job runs.
 pub(super) async fn insert(
     connection: &mut SqliteConnection,
     job: &JobId,
-    new: &NewExperiment,
+    new: NewExperiment,
 ) -> Result<(), StoreError> {
+    let NewExperiment { view, plan } = new;
     sqlx::query(INSERT)
-        .bind(new.view.id.as_str())
+        .bind(view.id.as_str())
         .bind(job.as_str())
-        .bind(new.view.created_at.0)
-        .bind(json(&new.view)?)
-        .bind(json(&new.plan)?)
+        .bind(view.created_at.0)
+        .bind(documents::write::<Experiment>(view.clone())?)
+        .bind(documents::write::<Plan>(plan)?)
         .execute(connection)
-        .await
-        .map_err(engine_error)?;
+        .await?;
     Ok(())
 }
 
 /// Keeps finished runs of the job's experiment.
 pub(super) async fn insert_rows(
     connection: &mut SqliteConnection,
-    job: &str,
-    rows: &[RunRow],
+    job: &JobId,
+    rows: Vec<RunRow>,
 ) -> Result<(), StoreError> {
-    let experiment: Option<String> =
-        sqlx::query_scalar(OF_JOB).bind(job).fetch_optional(&mut *connection).await.map_err(engine_error)?;
-    let experiment =
-        experiment.ok_or_else(|| StoreError::NotFound { kind: "experiment of job", id: job.to_owned() })?;
+    let of_job: Option<String> = sqlx::query_scalar(OF_JOB).bind(job.as_str()).fetch_optional(&mut *connection).await?;
+    let experiment = found(of_job, "experiment of job", job.as_str())?;
+    let added = i64::try_from(rows.len()).unwrap_or(i64::MAX);
     for row in rows {
         sqlx::query(INSERT_ROW)
             .bind(&experiment)
             .bind(row.id.cell)
             .bind(row.id.repetition)
-            .bind(json(row)?)
+            .bind(documents::write::<Row>(row)?)
             .execute(&mut *connection)
-            .await
-            .map_err(engine_error)?;
+            .await?;
     }
-    let added = i64::try_from(rows.len()).unwrap_or(i64::MAX);
-    sqlx::query(COUNT_ROWS).bind(&experiment).bind(added).execute(connection).await.map_err(engine_error)?;
+    sqlx::query(COUNT_ROWS).bind(&experiment).bind(added).execute(connection).await?;
     Ok(())
 }

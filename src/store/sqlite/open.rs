@@ -1,6 +1,5 @@
 //! Opening the database: gates first, then migrations.
 
-use super::engine_error;
 use crate::app::ports::StoreError;
 use sqlx::ConnectOptions as _;
 use sqlx::migrate::Migrator;
@@ -50,6 +49,12 @@ pub enum OpenError {
     Store(#[from] StoreError),
 }
 
+impl From<sqlx::Error> for OpenError {
+    fn from(error: sqlx::Error) -> Self {
+        Self::Store(error.into())
+    }
+}
+
 /// Options of the writing connection.
 pub(super) fn writing(path: &Path) -> SqliteConnectOptions {
     SqliteConnectOptions::new()
@@ -68,7 +73,7 @@ pub(super) fn reading(path: &Path) -> SqliteConnectOptions {
 
 /// Opens the writing connection, checks what must hold and brings the schema up to date.
 pub(super) async fn open(path: &Path) -> Result<SqliteConnection, OpenError> {
-    let mut connection = writing(path).connect().await.map_err(engine_error)?;
+    let mut connection = writing(path).connect().await?;
     check_version(&mut connection).await?;
     check_schema(&mut connection).await?;
     MIGRATIONS.run(&mut connection).await?;
@@ -87,17 +92,16 @@ pub(super) async fn open(path: &Path) -> Result<SqliteConnection, OpenError> {
 
 async fn pragma(connection: &mut SqliteConnection, statement: &'static str) -> Result<String, StoreError> {
     use sqlx::{Row as _, ValueRef as _};
-    let row = sqlx::query(statement).fetch_one(connection).await.map_err(engine_error)?;
-    let is_text = row.try_get_raw(0).map_err(engine_error)?.type_info().to_string() == "TEXT";
+    let row = sqlx::query(statement).fetch_one(connection).await?;
+    let is_text = row.try_get_raw(0)?.type_info().to_string() == "TEXT";
     if is_text {
-        return row.try_get::<String, _>(0).map_err(engine_error);
+        return Ok(row.try_get::<String, _>(0)?);
     }
-    row.try_get::<i64, _>(0).map(|value| value.to_string()).map_err(engine_error)
+    Ok(row.try_get::<i64, _>(0)?.to_string())
 }
 
 async fn check_version(connection: &mut SqliteConnection) -> Result<(), OpenError> {
-    let found: String =
-        sqlx::query_scalar("SELECT sqlite_version()").fetch_one(connection).await.map_err(engine_error)?;
+    let found: String = sqlx::query_scalar("SELECT sqlite_version()").fetch_one(connection).await?;
     let parts: Vec<u32> = found.split('.').map(|part| part.parse().unwrap_or(0)).collect();
     if parts.as_slice() < OLDEST_SQLITE.as_slice() {
         return Err(OpenError::SqliteVersion { found });
@@ -110,15 +114,12 @@ async fn check_schema(connection: &mut SqliteConnection) -> Result<(), OpenError
     let migrated: Option<i64> =
         sqlx::query_scalar("SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = '_sqlx_migrations'")
             .fetch_optional(&mut *connection)
-            .await
-            .map_err(engine_error)?;
+            .await?;
     if migrated.is_none() {
         return Ok(());
     }
-    let found: Option<i64> = sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations")
-        .fetch_one(connection)
-        .await
-        .map_err(engine_error)?;
+    let found: Option<i64> =
+        sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations").fetch_one(connection).await?;
     match found {
         Some(found) if found > known => Err(OpenError::NewerSchema { found, known }),
         _ => Ok(()),

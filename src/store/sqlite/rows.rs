@@ -1,20 +1,20 @@
-//! Reading rows: JSON columns into what they hold, one at a time or by page.
+//! Reading rows: documents into what they keep, one at a time or by page.
 
-use super::engine_error;
 use crate::app::model::Keyset;
 use crate::app::ports::StoreError;
+use crate::store::documents::{self, Document};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 use sqlx::sqlite::SqlitePool;
 
-/// JSON of a value that the service itself made.
+/// JSON of a parameter.
 pub(super) fn json<T: Serialize>(value: &T) -> Result<String, StoreError> {
     serde_json::to_string(value)
-        .map_err(|error| StoreError::Corrupt { what: "value to be stored".to_owned(), cause: error.to_string() })
+        .map_err(|error| StoreError::Corrupt { what: "parameter".to_owned(), cause: error.to_string() })
 }
 
-/// The value of a JSON column.
+/// The value of JSON that a statement made.
 pub(super) fn value<T: DeserializeOwned>(what: &str, text: &str) -> Result<T, StoreError> {
     serde_json::from_str(text).map_err(|error| StoreError::Corrupt { what: what.to_owned(), cause: error.to_string() })
 }
@@ -39,9 +39,14 @@ pub(super) fn number(value: u64) -> Result<i64, StoreError> {
         .map_err(|_| StoreError::Corrupt { what: "number to be stored".to_owned(), cause: format!("{value} > 2^63") })
 }
 
-/// A count that is never negative in the store.
+/// A count, which is never negative in the store.
 pub(super) fn count(value: i64) -> u64 {
     u64::try_from(value).unwrap_or(0)
+}
+
+/// The row found, or that there is none.
+pub(super) fn found<T>(row: Option<T>, kind: &'static str, id: &str) -> Result<T, StoreError> {
+    row.ok_or_else(|| StoreError::NotFound { kind, id: id.to_owned() })
 }
 
 /// The first column of the one row that `statement` finds by `id`.
@@ -51,35 +56,29 @@ pub(super) async fn text(
     kind: &'static str,
     id: &str,
 ) -> Result<String, StoreError> {
-    sqlx::query_scalar(statement)
-        .bind(id)
-        .fetch_optional(pool)
-        .await
-        .map_err(engine_error)?
-        .ok_or_else(|| StoreError::NotFound { kind, id: id.to_owned() })
+    found(sqlx::query_scalar(statement).bind(id).fetch_optional(pool).await?, kind, id)
 }
 
-/// The JSON in the first column of the one row that `statement` finds by `id`.
-pub(super) async fn one<T: DeserializeOwned>(
+/// The document in the first column of the one row that `statement` finds by `id`.
+pub(super) async fn one<D: Document>(
     pool: &SqlitePool,
     statement: &'static str,
     kind: &'static str,
     id: &str,
-) -> Result<T, StoreError> {
-    value(id, &text(pool, statement, kind, id).await?)
+) -> Result<D::Content, StoreError> {
+    documents::read::<D>(id, &text(pool, statement, kind, id).await?)
 }
 
-/// The JSON of a page; `statement` takes the id to start before and the limit.
-pub(super) async fn page<T: DeserializeOwned>(
+/// The documents of a page; `statement` takes the id to start before and the limit.
+pub(super) async fn page<D: Document>(
     pool: &SqlitePool,
     statement: &'static str,
     keyset: &Keyset,
-) -> Result<Vec<T>, StoreError> {
+) -> Result<Vec<D::Content>, StoreError> {
     let rows: Vec<String> = sqlx::query_scalar(statement)
         .bind(keyset.before_id.as_deref())
         .bind(i64::from(keyset.limit) + 1)
         .fetch_all(pool)
-        .await
-        .map_err(engine_error)?;
-    rows.iter().map(|text| value("row of a list", text)).collect()
+        .await?;
+    rows.iter().map(|text| documents::read::<D>("a list", text)).collect()
 }

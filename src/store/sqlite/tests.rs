@@ -1,6 +1,8 @@
 //! The suite, and what only SQLite can do wrong.
 
 use super::*;
+use crate::app::model::DemonstrationId;
+use crate::app::ports::Demonstrations as _;
 use crate::store::suite::conformance;
 use sqlx::sqlite::SqliteConnection;
 use sqlx::{ConnectOptions as _, Executor as _, SqlSafeStr as _};
@@ -35,13 +37,17 @@ async fn every_statement_prepares_on_a_fresh_database() {
     let (directory, _store) = fresh().await;
     let mut connection = open::writing(&directory.path().join("cgda.db")).connect().await.unwrap();
     let modules = [
-        claims::STATEMENTS,
+        actions::STATEMENTS,
         demonstrations::STATEMENTS,
+        events::STATEMENTS,
         experiments::STATEMENTS,
+        job_row::STATEMENTS,
         jobs::STATEMENTS,
-        results::STATEMENTS,
+        queue::STATEMENTS,
         robots::STATEMENTS,
+        runs::STATEMENTS,
         trials::STATEMENTS,
+        worlds::STATEMENTS,
     ];
     let mut prepared = 0;
     for statement in modules.into_iter().flatten() {
@@ -57,8 +63,7 @@ async fn note(connection: &mut SqliteConnection, text: String) -> Result<(), Sto
     sqlx::query("INSERT INTO idempotency_keys (key, body_sha256, job_id, created_at) SELECT ?1, '', id, 0 FROM jobs")
         .bind(text)
         .execute(connection)
-        .await
-        .map_err(engine_error)?;
+        .await?;
     Ok(())
 }
 
@@ -126,15 +131,17 @@ async fn damaged_samples_are_found() {
             Box::pin(async move {
                 for statement in [
                     "INSERT INTO demonstrations (id, name, revision, sha256, created_at, view, report)
-                        VALUES ('d', '', 1, '', 0, '', '')",
-                    "INSERT INTO demonstration_samples (demonstration_id, sha256, data) VALUES ('d', 'other', x'00')",
+                        VALUES ('dem_00000000000000000000000000000001', '', 1, '', 0, '', '')",
+                    "INSERT INTO demonstration_samples (demonstration_id, sha256, data) VALUES
+                        ('dem_00000000000000000000000000000001', 'other', x'00')",
                 ] {
-                    sqlx::query(statement).execute(&mut *connection).await.map_err(engine_error)?;
+                    sqlx::query(statement).execute(&mut *connection).await?;
                 }
                 Ok(())
             })
         })
         .await
         .unwrap();
-    assert!(matches!(demonstrations::samples(&store, "d").await, Err(StoreError::Corrupt { .. })));
+    let damaged = DemonstrationId::from_uuid(uuid::Uuid::from_u128(1));
+    assert!(matches!(store.demonstration_samples(&damaged).await, Err(StoreError::Corrupt { .. })));
 }

@@ -7,7 +7,6 @@
 //! - An answer is given after the commit. When a commit fails, no operation of the group is acknowledged and the
 //!   connection is closed and opened anew: after a failed sync nothing held in memory can be trusted.
 
-use super::engine_error;
 use crate::app::ports::StoreError;
 use futures_util::future::BoxFuture;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
@@ -116,7 +115,7 @@ async fn open<'c>(
 ) -> Result<&'c mut SqliteConnection, StoreError> {
     match connection {
         Some(open) => Ok(open),
-        empty => Ok(empty.insert(options.connect().await.map_err(engine_error)?)),
+        empty => Ok(empty.insert(options.connect().await?)),
     }
 }
 
@@ -133,6 +132,6 @@ async fn commit(connection: &mut SqliteConnection, group: &mut [Box<dyn Queued>]
 }
 
 async fn execute(connection: &mut SqliteConnection, statement: &'static str) -> Result<(), StoreError> {
-    sqlx::query(statement).execute(connection).await.map_err(engine_error)?;
+    sqlx::query(statement).execute(connection).await?;
     Ok(())
 }

@@ -1,0 +1,66 @@
+//! Jobs as users see and steer them.
+
+use super::{NewExperiment, StoreError, Transition};
+use crate::app::model::{ActionId, EventPage, JobFilter, JobId, JobView, Keyset, RobotId, Timestamp, Work, WorldId};
+use async_trait::async_trait;
+
+/// A key that makes a submission happen once.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct IdempotencyKey {
+    /// The client's key.
+    pub key: String,
+    /// SHA-256 of the request, hexadecimal.
+    pub body_sha256: String,
+}
+
+/// A job to submit.
+#[derive(Debug, Clone)]
+pub struct NewJob {
+    /// What is shown of it, in state `Queued`.
+    pub view: JobView,
+    /// All it needs.
+    pub work: Work,
+    /// What it names: it cannot be deleted as long as the job is kept.
+    pub uses: Usage,
+    /// The experiment it runs, kept together with it.
+    pub experiment: Option<NewExperiment>,
+}
+
+/// Resources a job names.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Usage {
+    /// Action.
+    pub action: Option<ActionId>,
+    /// Robot.
+    pub robot: Option<RobotId>,
+    /// World.
+    pub world: Option<WorldId>,
+}
+
+/// The answer to a submission.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Submitted {
+    /// The job is new.
+    Created(JobView),
+    /// The key was used with this body before; this is the job it made.
+    Existing(JobView),
+}
+
+/// Jobs: submitted once, read, steered.
+#[async_trait]
+pub trait Jobs: Send + Sync {
+    /// Submits a job; with a key, once.
+    async fn submit(&self, new: NewJob, key: Option<IdempotencyKey>) -> Result<Submitted, StoreError>;
+    /// The job that `key` made, if it made one.
+    async fn submitted(&self, key: &IdempotencyKey) -> Result<Option<JobView>, StoreError>;
+    /// One job.
+    async fn job(&self, id: &JobId) -> Result<JobView, StoreError>;
+    /// All a job needs.
+    async fn work(&self, id: &JobId) -> Result<Work, StoreError>;
+    /// Jobs.
+    async fn jobs(&self, filter: &JobFilter, keyset: &Keyset) -> Result<Vec<JobView>, StoreError>;
+    /// At most `limit` events after `after_seq`.
+    async fn events(&self, id: &JobId, after_seq: u64, limit: u32) -> Result<EventPage, StoreError>;
+    /// Moves a job on a user's request.
+    async fn apply_event(&self, id: &JobId, transition: Transition, at: Timestamp) -> Result<JobView, StoreError>;
+}

@@ -1,0 +1,90 @@
+//! Jobs as workers hold them.
+
+use super::{NewRun, StoreError};
+use crate::app::model::{ActionGoals, ActionView, EventData, JobFailure, JobId, JobProgress, JobView, Timestamp, Work};
+use crate::framework::experiment::RunRow;
+use crate::framework::job::{Event, State};
+use async_trait::async_trait;
+use std::time::Duration;
+
+/// The right to write for a job: void as soon as the job was taken back, which may happen when the lease ran out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claim {
+    /// The job.
+    pub job: JobId,
+    /// Random, one for each claim.
+    pub token: String,
+}
+
+/// A job for a worker.
+#[derive(Debug, Clone)]
+pub struct Claimed {
+    /// The right to write.
+    pub claim: Claim,
+    /// The job, in state `Preparing`.
+    pub job: JobView,
+    /// All it needs.
+    pub work: Work,
+    /// Its last checkpoint.
+    pub checkpoint: Option<Vec<u8>>,
+}
+
+/// A change of state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Transition {
+    /// What happens.
+    pub event: Event,
+    /// Why.
+    pub reason: Option<String>,
+    /// With `Fail`: what is shown to the user.
+    pub failure: Option<JobFailure>,
+}
+
+impl Transition {
+    /// A change of state that needs no reason.
+    #[must_use]
+    pub fn plain(event: Event) -> Self {
+        Self { event, reason: None, failure: None }
+    }
+}
+
+/// What a worker writes in one transaction, in this order.
+#[derive(Debug, Clone, Default)]
+pub struct Advance {
+    /// Runs that ended.
+    pub runs: Vec<NewRun>,
+    /// Runs of the job's experiment that ended. Rows are progress: they set the count of crashes back to 0.
+    pub rows: Vec<RunRow>,
+    /// The action that was made; the store counts its version.
+    pub action: Option<(ActionView, ActionGoals)>,
+    /// Progress to show.
+    pub progress: Option<JobProgress>,
+    /// Where to go on after a crash. A checkpoint is progress: it sets the count of crashes back to 0.
+    pub checkpoint: Option<Vec<u8>>,
+    /// Events that tell it.
+    pub events: Vec<EventData>,
+    /// The change of state, and its event last.
+    pub transition: Option<Transition>,
+}
+
+/// The queue: claim, heartbeat, advance, take back.
+#[async_trait]
+pub trait Queue: Send + Sync {
+    /// A server starts: jobs held by an earlier one go back into the queue. Returns those jobs.
+    async fn begin_epoch(&self, at: Timestamp) -> Result<Vec<JobId>, StoreError>;
+    /// Gives the oldest queued job to a worker for `lease`; attempt and crash count are durable before it is given.
+    /// A job that crashed `max_crashes` times in a row without progress fails instead.
+    async fn claim(
+        &self,
+        token: String,
+        lease: Duration,
+        max_crashes: u32,
+        at: Timestamp,
+    ) -> Result<Option<Claimed>, StoreError>;
+    /// Prolongs a lease. Returns the job's state.
+    async fn heartbeat(&self, claim: &Claim, lease: Duration) -> Result<State, StoreError>;
+    /// What a worker has done. Returns the job's state.
+    async fn advance(&self, claim: &Claim, step: Advance, at: Timestamp) -> Result<State, StoreError>;
+    /// Takes back jobs whose lease ran out. Returns them.
+    async fn reap(&self, at: Timestamp) -> Result<Vec<JobId>, StoreError>;
+}

@@ -1,0 +1,118 @@
+//! A run, its goals and its convergence.
+
+use super::tally::complete_tally;
+use super::{complete, document, infinite, versions};
+use crate::app::model::{
+    ActionId, ConvergencePoint, JobId, RobotId, RunGoal, RunGoals as Goals, RunId, RunView, Timestamp, TrajectoryId,
+    WorldId,
+};
+use crate::framework::Feature;
+use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
+use crate::framework::recognition::Metric;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+document! {
+    /// A run without its goals.
+    Run keeps RunView {
+        id: RunId,
+        job: JobId,
+        repetition: u32,
+        action: ActionId,
+        robot: RobotId,
+        world: WorldId,
+        method: String,
+        metric: Metric,
+        seed: u64,
+        evaluations: u64,
+        #[serde(deserialize_with = "infinite::number")]
+        discrepancy: f64,
+        true_discrepancy: Option<f64>,
+        valid: bool,
+        provenance: Tally,
+        painted_percent: Option<f64>,
+        goals: u32,
+        digest: String,
+        trajectory: Option<TrajectoryId>,
+        trajectory_problem: Option<String>,
+        created_at: Timestamp,
+    }
+}
+versions! { Run keeps RunView, "run", [with_constraints] }
+
+/// Version 0 of the builds without constraints: every run was valid, and nothing was counted.
+fn with_constraints(mut run: Value) -> Value {
+    complete(&mut run, "valid", true);
+    complete_tally(&mut run);
+    run
+}
+
+document! {
+    /// All goals of a run.
+    RunGoals keeps Goals {
+        run: RunId,
+        features: Vec<Feature>,
+        joint_names: Vec<String>,
+    }
+    each { goals: Goal, }
+}
+versions! { RunGoals keeps Goals, "goals", [with_winners] }
+
+document! {
+    /// One goal of a run.
+    Goal keeps RunGoal {
+        index: u32,
+        evaluations: u64,
+        #[serde(deserialize_with = "infinite::number")]
+        discrepancy: f64,
+        stop_reason: StopReason,
+        joints: Vec<f64>,
+        #[serde(deserialize_with = "infinite::numbers")]
+        observation: Vec<f64>,
+        goal: Vec<f64>,
+        residual: Option<f64>,
+        winner: Provenance,
+        true_discrepancy: Option<f64>,
+        feasible: bool,
+        provenance: Tally,
+    }
+}
+
+/// Version 0 of the builds without constraints executed every candidate and found each one feasible.
+fn with_winners(mut goals: Value) -> Value {
+    for goal in goals.get_mut("goals").and_then(Value::as_array_mut).into_iter().flatten() {
+        complete(goal, "winner", "simulated");
+        complete(goal, "feasible", true);
+        complete_tally(goal);
+    }
+    goals
+}
+
+/// Discrepancy against evaluations.
+#[derive(Debug, Serialize, Deserialize)]
+pub(in crate::store) struct Convergence {
+    points: Vec<Point>,
+}
+versions! { Convergence keeps Vec<ConvergencePoint>, "convergence", [|points| json!({ "points": points })] }
+
+document! {
+    /// One point of a convergence curve.
+    Point keeps ConvergencePoint {
+        goal_index: u32,
+        evaluations: u64,
+        #[serde(deserialize_with = "infinite::number")]
+        discrepancy: f64,
+    }
+}
+
+impl From<Vec<ConvergencePoint>> for Convergence {
+    fn from(points: Vec<ConvergencePoint>) -> Self {
+        Self { points: points.into_iter().map(Into::into).collect() }
+    }
+}
+
+impl From<Convergence> for Vec<ConvergencePoint> {
+    fn from(document: Convergence) -> Self {
+        document.points.into_iter().map(Into::into).collect()
+    }
+}
