@@ -13,6 +13,7 @@ pub mod execution;
 pub mod experiment;
 pub mod feature;
 pub mod generalization;
+pub mod infinite_as_null;
 pub mod job;
 pub mod method;
 mod name;

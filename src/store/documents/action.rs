@@ -27,11 +27,11 @@ versions! { Action keeps ActionView, "action", [unchanged] }
 
 document! {
     /// The goals of an action.
-    Goals keeps ActionGoals {
+    GoalMatrix keeps ActionGoals {
         action: ActionId,
         features: Vec<Feature>,
         goals: Vec<Vec<f64>>,
         spread: Vec<Vec<f64>>,
     }
 }
-versions! { Goals keeps ActionGoals, "goals", [unchanged] }
+versions! { GoalMatrix keeps ActionGoals, "goals", [unchanged] }

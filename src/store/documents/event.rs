@@ -1,9 +1,10 @@
 //! An event of a job; its number, its job and its time are columns.
 
 use super::progress::{Goal, Progress, Trial, with_trials};
-use super::{infinite, versions};
+use super::versions;
 use crate::app::model::{EventData, RunId, TrajectoryId};
 use crate::app::ports::StoreError;
+use crate::framework::infinite_as_null;
 use crate::framework::job::State;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -27,7 +28,7 @@ pub(in crate::store) enum Event {
         repetition: u32,
         seed: u64,
         evaluations: u64,
-        #[serde(deserialize_with = "infinite::number")]
+        #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
         painted_percent: Option<f64>,
         digest: String,

@@ -13,7 +13,6 @@ mod action;
 mod demonstration;
 mod event;
 mod experiment;
-mod infinite;
 mod job;
 mod progress;
 mod robot;
@@ -25,7 +24,7 @@ mod trajectory;
 mod trials;
 mod world;
 
-pub(super) use action::{Action, Goals};
+pub(super) use action::{Action, GoalMatrix};
 pub(super) use demonstration::{Demonstration, Report};
 pub(super) use event::Event;
 pub(super) use experiment::{Experiment, Plan, Row};

@@ -1,7 +1,8 @@
 //! Progress of a job, with the finished goals and the trials of its present repetition.
 
-use super::{complete, document, infinite, versions};
+use super::{complete, document, versions};
 use crate::app::model::{GoalProgress, JobProgress, TrialProgress};
+use crate::framework::infinite_as_null;
 use crate::framework::method::per_goal::StopReason;
 use serde_json::{Value, json};
 
@@ -34,11 +35,11 @@ document! {
         repetition: u32,
         index: u32,
         evaluations: u64,
-        #[serde(deserialize_with = "infinite::number")]
+        #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
         stop_reason: StopReason,
         joints: Vec<f64>,
-        #[serde(deserialize_with = "infinite::numbers")]
+        #[serde(with = "infinite_as_null")]
         observation: Vec<f64>,
         residual: Option<f64>,
     }

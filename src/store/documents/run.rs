@@ -1,12 +1,13 @@
 //! A run, its goals and its convergence.
 
 use super::tally::complete_tally;
-use super::{complete, document, infinite, versions};
+use super::{complete, document, versions};
 use crate::app::model::{
     ActionId, ConvergencePoint, JobId, RobotId, RunGoal, RunGoals as Goals, RunId, RunView, Timestamp, TrajectoryId,
     WorldId,
 };
 use crate::framework::Feature;
+use crate::framework::infinite_as_null;
 use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
@@ -25,7 +26,7 @@ document! {
         metric: Metric,
         seed: u64,
         evaluations: u64,
-        #[serde(deserialize_with = "infinite::number")]
+        #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
         true_discrepancy: Option<f64>,
         valid: bool,
@@ -54,20 +55,20 @@ document! {
         features: Vec<Feature>,
         joint_names: Vec<String>,
     }
-    each { goals: Goal, }
+    each { goals: ReachedGoal, }
 }
 versions! { RunGoals keeps Goals, "goals", [with_winners] }
 
 document! {
     /// One goal of a run.
-    Goal keeps RunGoal {
+    ReachedGoal keeps RunGoal {
         index: u32,
         evaluations: u64,
-        #[serde(deserialize_with = "infinite::number")]
+        #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
         stop_reason: StopReason,
         joints: Vec<f64>,
-        #[serde(deserialize_with = "infinite::numbers")]
+        #[serde(with = "infinite_as_null")]
         observation: Vec<f64>,
         goal: Vec<f64>,
         residual: Option<f64>,
@@ -100,7 +101,7 @@ document! {
     Point keeps ConvergencePoint {
         goal_index: u32,
         evaluations: u64,
-        #[serde(deserialize_with = "infinite::number")]
+        #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
     }
 }

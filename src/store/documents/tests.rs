@@ -32,7 +32,7 @@ fn documents_of_version_0_are_upgraded_and_kept() {
     upgraded::<Robot>("robot-0");
     upgraded::<World>("world-0");
     upgraded::<Action>("action-0");
-    upgraded::<Goals>("action_goals-0");
+    upgraded::<GoalMatrix>("action_goals-0");
     upgraded::<Request>("request-0");
     upgraded::<Work>("work-0");
     upgraded::<Failure>("failure-0");

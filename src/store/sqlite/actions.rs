@@ -5,7 +5,7 @@ use super::rows::{one, page};
 use super::statements::statements;
 use crate::app::model::{ActionGoals, ActionId, ActionView, Keyset};
 use crate::app::ports::{Actions, StoreError};
-use crate::store::documents::{self, Action, Goals};
+use crate::store::documents::{self, Action, GoalMatrix};
 use async_trait::async_trait;
 use sqlx::sqlite::SqliteConnection;
 
@@ -25,7 +25,7 @@ impl Actions for SqliteStore {
     }
 
     async fn action_goals(&self, id: &ActionId) -> Result<ActionGoals, StoreError> {
-        one::<Goals>(&self.readers, GOALS, "action", id.as_str()).await
+        one::<GoalMatrix>(&self.readers, GOALS, "action", id.as_str()).await
     }
 
     async fn actions(&self, keyset: &Keyset) -> Result<Vec<ActionView>, StoreError> {
@@ -47,7 +47,7 @@ pub(super) async fn insert(
         .bind(view.job.as_str())
         .bind(view.created_at.0)
         .bind(documents::write::<Action>(view.clone())?)
-        .bind(documents::write::<Goals>(goals)?)
+        .bind(documents::write::<GoalMatrix>(goals)?)
         .execute(connection)
         .await?;
     Ok(())

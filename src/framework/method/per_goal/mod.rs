@@ -14,7 +14,6 @@ mod cma_es;
 mod fi_pso;
 mod granules;
 mod incumbent;
-mod infinite_as_null;
 mod pso;
 mod spec;
 mod sst;
@@ -102,7 +101,6 @@ pub enum Outcome<'a> {
 
 /// Where fitness values come from and what was done about infeasible candidates, by count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
-#[serde(default)]
 pub struct Tally {
     /// Executed in simulation.
     pub simulated: u64,

@@ -26,7 +26,7 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
   const active = searching
     ? { index: progress.goal_index, evaluations: progress.goal_evaluations, discrepancy: progress.discrepancy ?? null }
     : null;
-  const kept = progress.trials ?? [];
+  const kept = progress.trials;
   const tolerance = job.request.kind === "execution" ? (job.request.execution.tolerance ?? null) : null;
   const trials = live.trials.length >= kept.length ? live.trials : kept;
   const cumulative = goals.map((_, index) => goals.slice(0, index + 1).reduce((sum, goal) => sum + goal.evaluations, 0));

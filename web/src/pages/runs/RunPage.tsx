@@ -50,8 +50,8 @@ export function commonUnit(features: readonly Feature[]): string {
   return units.size === 1 ? ([...units][0] ?? "") : "";
 }
 
-/** The number of fitness values of each origin; absent for runs of versions that did not count. */
-function counted({ simulated = 0, real = 0, inherited = 0, granule = 0, penalised = 0 }: Run["provenance"] = {}) {
+/** The number of fitness values of each origin that occurs. */
+function counted({ simulated, real, inherited, granule, penalised }: Run["provenance"]) {
   const origins = Object.entries({ simulated, real, inherited, granule, penalised });
   return Object.fromEntries(origins.filter(([, count]) => count > 0).map(([kind, count]) => [kind, formatCount(count)]));
 }

@@ -1,8 +1,9 @@
 //! What a steady-state tournament remembers; saved and resumed as it is.
 
+use crate::infinite_as_null;
 use crate::method::per_goal::incumbent::Incumbent;
 use crate::method::per_goal::waiting::Waiting;
-use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason, infinite_as_null};
+use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 

@@ -2,9 +2,10 @@
 
 use super::movement::limited;
 use super::spec::SwarmSpec;
+use crate::infinite_as_null;
 use crate::method::per_goal::incumbent::Incumbent;
 use crate::method::per_goal::waiting::Waiting;
-use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason, Tally, infinite_as_null};
+use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason, Tally};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
