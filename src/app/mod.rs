@@ -8,6 +8,8 @@
 
 mod access;
 pub mod actions;
+#[cfg(test)]
+mod bench;
 pub mod demonstrations;
 pub mod experiments;
 pub mod jobs;

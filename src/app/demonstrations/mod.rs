@@ -2,6 +2,8 @@
 
 mod codec;
 mod series;
+#[cfg(test)]
+mod tests;
 
 pub use codec::{CodecError, decode, encode};
 

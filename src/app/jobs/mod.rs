@@ -2,6 +2,8 @@
 
 mod kind;
 mod reference;
+#[cfg(test)]
+mod tests;
 mod trial_reuse;
 mod validate;
 mod watch;

@@ -17,6 +17,7 @@ pub struct DemonstrationView {
     /// Number of times it was changed; `If-Match` compares it.
     pub revision: u64,
     /// Why it is left out of new actions, if it is.
+    #[schema(required = true)]
     pub excluded: Option<String>,
     /// Streams.
     pub streams: Vec<StreamView>,

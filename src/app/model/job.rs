@@ -20,6 +20,7 @@ pub struct JobView {
     /// Where it stands.
     pub state: State,
     /// Why, where there is more to say than the state.
+    #[schema(required = true)]
     pub state_reason: Option<String>,
     /// Since when.
     pub state_since: Timestamp,
@@ -32,14 +33,17 @@ pub struct JobView {
     /// What it made so far.
     pub result: JobResult,
     /// Why it failed.
+    #[schema(required = true)]
     pub failure: Option<JobFailure>,
     /// Sequence number of its last event.
     pub last_seq: u64,
     /// When it was submitted.
     pub created_at: Timestamp,
     /// When a worker first started it.
+    #[schema(required = true)]
     pub started_at: Option<Timestamp>,
     /// When it ended.
+    #[schema(required = true)]
     pub finished_at: Option<Timestamp>,
 }
 
@@ -47,10 +51,12 @@ pub struct JobView {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JobResult {
     /// The action, of a generalization.
+    #[schema(required = true)]
     pub action: Option<ActionId>,
     /// The runs, of an execution, in the order of repetitions.
     pub runs: Vec<RunId>,
     /// The experiment, from its submission on.
+    #[schema(required = true)]
     pub experiment: Option<ExperimentId>,
 }
 

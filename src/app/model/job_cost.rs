@@ -13,8 +13,10 @@ pub struct Validation {
     /// Errors in the request; empty if it is valid.
     pub errors: Vec<FieldError>,
     /// Estimated cost; absent if the job is invalid.
+    #[schema(required = true)]
     pub estimate: Option<CostEstimate>,
     /// Method chosen for `auto`, with the reason; absent if the job names a method.
+    #[schema(required = true)]
     pub chosen: Option<Chosen>,
 }
 

@@ -30,6 +30,7 @@ pub enum EventData {
         /// The new state.
         state: State,
         /// Why.
+        #[schema(required = true)]
         reason: Option<String>,
         /// How often a worker claimed it.
         attempt: u32,
@@ -56,6 +57,7 @@ pub enum EventData {
         /// The run.
         run: RunId,
         /// Its trajectory.
+        #[schema(required = true)]
         trajectory: Option<TrajectoryId>,
         /// Repetition, from 0.
         repetition: u32,
@@ -66,6 +68,7 @@ pub enum EventData {
         /// Discrepancy, features' unit.
         discrepancy: f64,
         /// Share painted, %.
+        #[schema(required = true)]
         painted_percent: Option<f64>,
         /// SHA-256 of the result's bits, hexadecimal.
         digest: String,

@@ -25,6 +25,7 @@ pub struct JobProgress {
     /// Evaluations of all repetitions.
     pub total_evaluations: u64,
     /// Best discrepancy of the present goal, features' unit.
+    #[schema(required = true)]
     pub discrepancy: Option<f64>,
     /// Finished goals of the present repetition; left out of events, which tell each goal once.
     pub finished_goals: Vec<GoalProgress>,
@@ -42,6 +43,7 @@ pub struct TrialProgress {
     /// The goal it was made for, from 0.
     pub goal: u32,
     /// Distance of what was observed from that goal (Euclidean, features' unit); none when the observation was lost.
+    #[schema(required = true)]
     pub residual: Option<f64>,
 }
 
@@ -63,6 +65,7 @@ pub struct GoalProgress {
     /// What was observed there.
     pub observation: Vec<f64>,
     /// Distance of the observation from the goal (Euclidean, features' unit): for a goal out of reach the best found.
+    #[schema(required = true)]
     pub residual: Option<f64>,
 }
 

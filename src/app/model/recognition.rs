@@ -45,6 +45,7 @@ pub struct RecognizeRequest {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RecognitionView {
     /// The recognized action; absent if *unknown*.
+    #[schema(required = true)]
     pub recognized: Option<ActionId>,
     /// Metric in use.
     pub metric: Metric,
@@ -85,5 +86,6 @@ pub struct IncomparableCandidate {
     /// Feature that is missing or has another unit.
     pub feature: Feature,
     /// Unit in the observation; absent if the feature was not observed.
+    #[schema(required = true)]
     pub observed_unit: Option<String>,
 }

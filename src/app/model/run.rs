@@ -35,20 +35,24 @@ pub struct RunView {
     /// Discrepancy of the whole observation, features' unit.
     pub discrepancy: f64,
     /// What the last goal's winner really does, where `discrepancy` is the value of one that was never executed.
+    #[schema(required = true)]
     pub true_discrepancy: Option<f64>,
     /// Whether the last goal's joints satisfy the constraints; true where there are none.
     pub valid: bool,
     /// Where the fitness values of all goals come from, by count.
     pub provenance: Tally,
     /// Share of the surface painted, %, in a world of coverage.
+    #[schema(required = true)]
     pub painted_percent: Option<f64>,
     /// Number of goals.
     pub goals: u32,
     /// SHA-256 of the result's bits, hexadecimal.
     pub digest: String,
     /// Its trajectory; absent when none could be made within the limits, which `trajectory_problem` explains.
+    #[schema(required = true)]
     pub trajectory: Option<TrajectoryId>,
     /// Why there is no trajectory.
+    #[schema(required = true)]
     pub trajectory_problem: Option<String>,
     /// When it ended.
     pub created_at: Timestamp,
@@ -72,10 +76,12 @@ pub struct RunGoal {
     /// What was asked for.
     pub goal: Vec<f64>,
     /// Distance of `observation` from `goal` (Euclidean, features' unit): for a goal out of reach the best found.
+    #[schema(required = true)]
     pub residual: Option<f64>,
     /// Where the winner's discrepancy comes from.
     pub winner: Provenance,
     /// What the winner really does, where `discrepancy` is the value of one that was never executed.
+    #[schema(required = true)]
     pub true_discrepancy: Option<f64>,
     /// Whether the joints satisfy the constraints; true where there are none.
     pub feasible: bool,

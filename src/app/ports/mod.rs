@@ -8,9 +8,15 @@ pub mod rules;
 mod store;
 
 pub use clock::Clock;
+#[cfg(test)]
+pub use clock::TestClock;
 pub use evaluator::{Evaluator, EvaluatorError, Evaluators, RunContext, TrialId, Trials};
 pub use events::{Events, LocalEvents, Wake};
+#[cfg(test)]
+pub use ids::TestIds;
 pub use ids::{Ids, SEED_BOUND};
+#[cfg(test)]
+pub use store::MemoryStore;
 pub use store::{
     Actions, Advance, Claim, Claimed, Demonstrations, Experiments, IdempotencyKey, Jobs, KeptTrials, NewDemonstration,
     NewExperiment, NewJob, NewRobot, NewRun, Queue, Robots, Runs, Store, StoreError, Submitted, Transition, Usage,

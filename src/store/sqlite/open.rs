@@ -145,7 +145,7 @@ mod tests {
         .unwrap();
         connection.close().await.unwrap();
         let before = std::fs::read(&path).unwrap();
-        assert!(matches!(open(&path).await, Err(OpenError::NewerSchema { found: 9999, known: 3 })));
+        assert!(matches!(open(&path).await, Err(OpenError::NewerSchema { found: 9999, known: 4 })));
         assert_eq!(std::fs::read(&path).unwrap(), before);
     }
 }

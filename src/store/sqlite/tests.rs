@@ -13,24 +13,7 @@ async fn fresh() -> (tempfile::TempDir, SqliteStore) {
     (directory, store)
 }
 
-conformance! { fresh();
-    keeps_demonstrations_until_deleted,
-    changes_a_demonstration_only_at_the_revision_named,
-    pages_lists_newest_first_without_gap_or_repeat,
-    counts_versions_and_keeps_what_jobs_name,
-    submits_once_a_key,
-    gives_the_oldest_job_to_one_worker,
-    lists_jobs_by_state_and_kind,
-    writes_nothing_for_a_lost_claim,
-    writes_a_step_whole_or_not_at_all,
-    ends_a_job_once_with_its_results,
-    numbers_events_and_tells_unknown_positions,
-    gives_back_the_last_checkpoint,
-    quarantines_only_jobs_that_crash_without_progress,
-    takes_back_jobs_whose_lease_ran_out,
-    steers_jobs_as_the_machine_allows,
-    keeps_an_experiment_with_its_job_and_its_rows_with_the_claim,
-}
+conformance! { fresh() }
 
 #[tokio::test]
 async fn every_statement_prepares_on_a_fresh_database() {

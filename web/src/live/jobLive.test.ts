@@ -10,6 +10,7 @@ const goal = (index: number, evaluations: number, discrepancy: number): GoalProg
   stop_reason: "stagnation",
   joints: [0, 0, 0],
   observation: [1, 2, 3],
+  residual: null,
 });
 
 const progress = (change: Partial<JobProgress>): JobProgress => ({
@@ -23,6 +24,7 @@ const progress = (change: Partial<JobProgress>): JobProgress => ({
   total_evaluations: 50,
   discrepancy: 12,
   finished_goals: [],
+  trials: [],
   ...change,
 });
 

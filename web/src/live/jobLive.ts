@@ -54,7 +54,7 @@ function applyEvent(live: LiveJob, event: JobEvent): LiveJob {
   const next = { ...live, lastSeq: event.seq };
   switch (event.type) {
     case "state":
-      return { ...next, state: event.state, reason: event.reason ?? null, attempt: event.attempt };
+      return { ...next, state: event.state, reason: event.reason, attempt: event.attempt };
     case "progress":
       return withProgress(next, event.progress);
     case "goal":
@@ -73,7 +73,7 @@ function withProgress(live: LiveJob, progress: JobProgress): LiveJob {
   const { repetition, finished_goals: finished } = progress;
   const sameRun = live.curve.repetition === repetition;
   const started = sameRun ? live.curve : emptyCurve(repetition);
-  const curve = withPoint(started, progress.evaluations, progress.discrepancy ?? null, progress.goal_index);
+  const curve = withPoint(started, progress.evaluations, progress.discrepancy, progress.goal_index);
   // Streamed progress usually leaves finished goals to the goal events, but may carry them if the stream starts late.
   const goals = finished.length > 0 ? finished : sameRun ? live.goals : [];
   return { ...live, progress, curve, goals };

@@ -12,6 +12,8 @@ mod demonstrations;
 mod error;
 mod experiments;
 mod jobs;
+#[cfg(test)]
+mod memory;
 mod queue;
 mod robots;
 mod runs;
@@ -22,6 +24,8 @@ pub use demonstrations::{Demonstrations, NewDemonstration};
 pub use error::StoreError;
 pub use experiments::{Experiments, NewExperiment};
 pub use jobs::{IdempotencyKey, Jobs, NewJob, Submitted, Usage};
+#[cfg(test)]
+pub use memory::MemoryStore;
 pub use queue::{Advance, Claim, Claimed, Queue, Transition};
 pub use robots::{NewRobot, Robots};
 pub use runs::{KeptTrials, NewRun, Runs};

@@ -24,7 +24,7 @@ export function ExecutionLive({ job, live, state, unit }: Props) {
   const goals = sameRun && live.goals.length > 0 ? live.goals : progress.finished_goals;
   const searching = !isFinal(state) && goals.length < progress.goals;
   const active = searching
-    ? { index: progress.goal_index, evaluations: progress.goal_evaluations, discrepancy: progress.discrepancy ?? null }
+    ? { index: progress.goal_index, evaluations: progress.goal_evaluations, discrepancy: progress.discrepancy }
     : null;
   const kept = progress.trials;
   const tolerance = job.request.kind === "execution" ? (job.request.execution.tolerance ?? null) : null;

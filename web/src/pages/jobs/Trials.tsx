@@ -17,7 +17,7 @@ interface Props {
 export function TrialsChart({ trials, tolerance, unit }: Props) {
   const last = trials.at(-1);
   if (last === undefined) return <p className="muted">Each trial appears here as a point.</p>;
-  const away = trials.map((trial) => trial.residual ?? null);
+  const away = trials.map((trial) => trial.residual);
   const seen = away.filter((residual) => residual !== null);
   const lost = away.length - seen.length;
   const within = tolerance === null ? [] : [{ label: "tolerance", values: trials.map(() => tolerance), color: "curve", dashed: true, width: 1 }];
