@@ -17,7 +17,7 @@
 //! - `http` and `grpc` never access `store` or each other: a use case is written once, in `app`.
 //! - SI units and radians inside; every name that crosses a boundary carries its unit.
 //!
-//! `tests/tidy.rs` enforces these.
+//! `tests/tidy` enforces these.
 
 pub mod app;
 pub mod cli;
