@@ -45,10 +45,7 @@ pub(super) fn check_method(spec: &ExecutionSpec, world: &WorldSpec) -> Result<()
         ])?,
         MethodSpec::Particle(method) => {
             let (poses, particles) = (f64::from(method.poses), f64::from(method.particles));
-            let cells = match world {
-                WorldSpec::Coverage(surface) => f64::from(surface.columns) * f64::from(surface.rows),
-                WorldSpec::ToolPosition(_) => 1.0,
-            };
+            let cells = world.properties().surface.map_or(1.0, |surface| surface.columns as f64 * surface.rows as f64);
             let together = "poses x particles x cells is at most 2^26: give fewer of one of them";
             first_outside([
                 trials(method.max_evaluations),
@@ -63,7 +60,7 @@ pub(super) fn check_method(spec: &ExecutionSpec, world: &WorldSpec) -> Result<()
     }
     let refuse = |expected| Err(ProblemError::Method { method: spec.method.name(), expected });
     match &spec.method {
-        MethodSpec::Model(_) | MethodSpec::Broyden(_) if matches!(world, WorldSpec::Coverage(_)) => {
+        MethodSpec::Model(_) | MethodSpec::Broyden(_) if !world.properties().smooth => {
             refuse("features that follow the pose without jumps; for a surface take particle or search")
         }
         MethodSpec::Broyden(_) | MethodSpec::Particle(_) | MethodSpec::Search(_)

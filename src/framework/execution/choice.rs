@@ -52,31 +52,31 @@ pub(super) fn choose(wishes: &AutoSpec, execution: &ExecutionSpec, world: &World
              CMA-ES honours them with the fewest trials.",
         );
     }
-    match (world, wishes.simulator, wishes.free_evaluations) {
-        (WorldSpec::Coverage(_), true, _) => (
+    match (world.properties().surface.is_some(), wishes.simulator, wishes.free_evaluations) {
+        (true, true, _) => (
             MethodSpec::Particle(ParticleSpec::default()),
             "A surface is to be covered and the robot's description may be used: each trial is the pose that most of many \
              slightly different simulated robots expect to cover one new place, about one trial a place.",
         ),
-        (WorldSpec::Coverage(_), false, true) => (
+        (true, false, true) => (
             MethodSpec::CmaEs(CmaEsSpec::default()),
             "A surface is to be covered and trials cost nothing: CMA-ES goes on until every place is covered.",
         ),
-        (WorldSpec::Coverage(_), false, false) => (
+        (true, false, false) => (
             MethodSpec::Search(CoverSpec::default()),
             "A surface is to be covered and nothing may be assumed of the robot: each trial is where past trials leave the \
              best chance of covering a new place.",
         ),
-        (WorldSpec::ToolPosition(_), _, true) => (
+        (false, _, true) => (
             MethodSpec::CmaEs(CmaEsSpec { precision: FREE_PRECISION, ..CmaEsSpec::default() }),
             "Trials cost nothing, so the best result counts: CMA-ES comes closest to what the robot can reach.",
         ),
-        (WorldSpec::ToolPosition(_), true, false) => (
+        (false, true, false) => (
             MethodSpec::Model(ModelSpec { prior: Prior::Simulator, noise: wishes.noise, ..ModelSpec::default() }),
             "What is seen follows the pose, and the robot's description serves as a first guess: a model corrects it from \
              trial to trial, about one trial a goal.",
         ),
-        (WorldSpec::ToolPosition(_), false, false) => (
+        (false, false, false) => (
             MethodSpec::Model(ModelSpec { noise: wishes.noise, ..ModelSpec::default() }),
             "What is seen follows the pose, and nothing may be assumed of the robot: a few first moves teach a model of it, \
              then one or two trials a goal do.",

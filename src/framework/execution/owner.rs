@@ -12,7 +12,7 @@ use crate::method::whole_run::{
     Space, StepLimits, Stepped, Targets, Trial, WholeRun,
 };
 use crate::robot::Chain;
-use crate::world::{self, CoverageSpec, SurfaceView, World, WorldSpec};
+use crate::world::{self, Surface, SurfaceView, World, WorldSpec};
 use std::sync::Arc;
 
 /// Share of the goals' extent that is near enough where no tolerance is given.
@@ -175,7 +175,7 @@ fn step_limits(setup: &Setup, space: &Space) -> StepLimits {
         per_trial: space.axes.iter().map(|axis| least(axis.scale())).collect(),
         per_goal,
         start: start.or_else(|| between_trials.map(|_| space.home())),
-        repeats: matches!(&setup.world, WorldSpec::Coverage(coverage) if coverage.resets),
+        repeats: setup.world.properties().surface.is_some_and(|surface| surface.resets),
     }
 }
 
@@ -193,7 +193,7 @@ fn unbounded(
         | MethodSpec::FiPso(_)
         | MethodSpec::AffgPso(_)
         | MethodSpec::CmaEs(_) => {
-            if matches!(&setup.world, WorldSpec::Coverage(surface) if !surface.resets) {
+            if !setup.world.properties().resets() {
                 let expected = "a surface that is put back between trials: take particle or search where it cannot be";
                 return Err(ProblemError::Method { method: setup.spec.method.name(), expected });
             }
@@ -211,16 +211,17 @@ fn unbounded(
             Box::new(run)
         }
         MethodSpec::Search(spec) => {
-            let coverage = coverage(setup, "search")?;
-            let seen = coverage.observes == SurfaceView::Cells;
-            let grid = seen.then_some(Grid { columns: coverage.columns as usize, rows: coverage.rows as usize });
-            Box::new(SearchIet::new(spec.clone(), coverage.resets, grid, space, &goals, seed))
+            let Surface { columns, rows, resets, cells_seen } = surface(setup, "search")?;
+            let grid = cells_seen.then_some(Grid { columns, rows });
+            Box::new(SearchIet::new(spec.clone(), resets, grid, space, &goals, seed))
         }
         MethodSpec::Particle(spec) => {
-            let coverage = coverage(setup, "particle")?.clone();
+            let resets = surface(setup, "particle")?.resets;
             let limit = CoverSpec { max_evaluations: spec.max_evaluations, poses: spec.poses, max_step_deg: None };
-            let resets = coverage.resets;
-            let world = WorldSpec::Coverage(CoverageSpec { observes: SurfaceView::Percent, ..coverage });
+            let mut world = setup.world.clone();
+            if let Some(surface) = world.surface_mut() {
+                surface.observes = SurfaceView::Percent;
+            }
             let simulator = Uncertain { chain: setup.chain.clone(), world, spec: spec.clone() };
             Box::new(ParticleIet::new(
                 limit,
@@ -235,16 +236,13 @@ fn unbounded(
     }))
 }
 
-fn coverage<'a>(setup: &'a Setup, method: &'static str) -> Result<&'a CoverageSpec, ProblemError> {
-    match &setup.world {
-        WorldSpec::Coverage(_) if setup.select.first() != Some(&0) || setup.select.len() > 1 => {
-            Err(ProblemError::Method { method, expected: "goals of the one feature \"painted\"" })
-        }
-        WorldSpec::Coverage(coverage) => Ok(coverage),
-        WorldSpec::ToolPosition(_) => {
-            Err(ProblemError::Method { method, expected: "a coverage world; take model here" })
-        }
+fn surface(setup: &Setup, method: &'static str) -> Result<Surface, ProblemError> {
+    let refused = |expected| ProblemError::Method { method, expected };
+    let surface = setup.world.properties().surface.ok_or(refused("a coverage world; take model here"))?;
+    if setup.select != [0] {
+        return Err(refused("goals of the one feature \"painted\""));
     }
+    Ok(surface)
 }
 
 fn space(setup: &Setup) -> Space {
@@ -303,10 +301,7 @@ impl Simulator for Uncertain {
     }
 
     fn cells(&self) -> usize {
-        match &self.world {
-            WorldSpec::Coverage(coverage) => coverage.columns as usize * coverage.rows as usize,
-            WorldSpec::ToolPosition(_) => 0,
-        }
+        self.world.properties().surface.map_or(0, |surface| surface.cells())
     }
 
     fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<Vec<u64>> {

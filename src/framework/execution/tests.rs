@@ -212,7 +212,7 @@ fn refuses_goals_the_world_does_not_show() {
     assert!(error.contains("\"x\"") && error.contains("[\"painted\"]"), "{error}");
     let error = spoiled(|p| match &mut p.world {
         WorldSpec::ToolPosition(spec) => spec.unit = "m".into(),
-        WorldSpec::Coverage(_) => panic!("wax has no surface"),
+        _ => panic!("wax is about the tool's position"),
     });
     assert!(error.contains("\"mm\" in the goals and in \"m\""), "{error}");
     let error = spoiled(|p| p.execution.tolerance = Some(-1.0));
