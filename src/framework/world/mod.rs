@@ -11,12 +11,13 @@ mod real;
 mod spec;
 #[cfg(test)]
 mod tests;
+mod tool_distance;
 mod tool_position;
 
 pub use error::WorldError;
 pub use properties::{Surface, WorldProperties};
 pub use real::{RealitySpec, build_real};
-pub use spec::{CoverageSpec, SurfaceView, ToolPositionSpec, WorldSpec};
+pub use spec::{CoverageSpec, SurfaceView, ToolDistanceSpec, ToolPositionSpec, WorldSpec};
 
 use crate::Feature;
 use crate::robot::Chain;
@@ -49,6 +50,7 @@ pub trait World: Send {
 pub fn build(spec: &WorldSpec, chain: &Chain) -> Result<Box<dyn World>, WorldError> {
     Ok(match spec {
         WorldSpec::ToolPosition(spec) => Box::new(tool_position::ToolPosition::new(spec, chain)?),
+        WorldSpec::ToolDistance(spec) => Box::new(tool_distance::ToolDistance::new(spec, chain)?),
         WorldSpec::Coverage(spec) => Box::new(coverage::Coverage::new(spec, chain)?),
     })
 }
@@ -58,7 +60,7 @@ impl WorldSpec {
     #[must_use]
     pub fn properties(&self) -> WorldProperties {
         match self {
-            Self::ToolPosition(_) => WorldProperties { smooth: true, surface: None },
+            Self::ToolPosition(_) | Self::ToolDistance(_) => WorldProperties { smooth: true, surface: None },
             Self::Coverage(spec) => WorldProperties { smooth: false, surface: Some(coverage::surface(spec)) },
         }
     }
@@ -67,7 +69,7 @@ impl WorldSpec {
     pub fn surface_mut(&mut self) -> Option<&mut CoverageSpec> {
         match self {
             Self::Coverage(spec) => Some(spec),
-            Self::ToolPosition(_) => None,
+            Self::ToolPosition(_) | Self::ToolDistance(_) => None,
         }
     }
 }
@@ -79,6 +81,7 @@ impl WorldSpec {
 pub fn features(spec: &WorldSpec) -> Result<Vec<Feature>, WorldError> {
     match spec {
         WorldSpec::ToolPosition(spec) => Ok(tool_position::features(spec)?.to_vec()),
+        WorldSpec::ToolDistance(spec) => Ok(tool_distance::features(spec)?.to_vec()),
         WorldSpec::Coverage(spec) => {
             coverage::check(spec)?;
             Ok(coverage::features(spec))

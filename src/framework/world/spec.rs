@@ -9,6 +9,8 @@ use utoipa::ToSchema;
 pub enum WorldSpec {
     /// The observation is the tool's position (the paper's wax).
     ToolPosition(ToolPositionSpec),
+    /// The observation is the tool's distance from a point.
+    ToolDistance(ToolDistanceSpec),
     /// The observation is the share of a surface's cells that the tool has come close to (the paper's paint).
     Coverage(CoverageSpec),
 }
@@ -18,6 +20,16 @@ pub enum WorldSpec {
 #[serde(deny_unknown_fields)]
 pub struct ToolPositionSpec {
     /// Unit of the features: `m` or `mm`.
+    pub unit: String,
+}
+
+/// Feature `distance`: distance of the tool centre point from `point_m`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToolDistanceSpec {
+    /// The point; chain's base frame, metres.
+    pub point_m: [f64; 3],
+    /// Unit of the feature: `m` or `mm`.
     pub unit: String,
 }
 

@@ -21,7 +21,7 @@ fn arm() -> Chain {
 fn wall() -> CoverageSpec {
     match toml::from_str(WALL).unwrap() {
         WorldSpec::Coverage(spec) => spec,
-        WorldSpec::ToolPosition(_) => panic!("the wall is a surface"),
+        _ => panic!("the wall is a surface"),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::enumeration::{Enumeration as _, or_default};
 use super::{all, finite, required, time, triple};
 use crate::app::model::{AppError, CreateWorld, WorldView};
-use crate::framework::world::{CoverageSpec, ToolPositionSpec, WorldSpec};
+use crate::framework::world::{CoverageSpec, ToolDistanceSpec, ToolPositionSpec, WorldSpec};
 use crate::grpc::proto;
 use proto::world_spec::Kind;
 
@@ -20,6 +20,9 @@ pub fn create(request: proto::CreateWorldRequest) -> Result<CreateWorld, AppErro
 fn spec(kind: Kind) -> Result<WorldSpec, AppError> {
     match kind {
         Kind::ToolPosition(proto::ToolPositionWorld { unit }) => Ok(WorldSpec::ToolPosition(ToolPositionSpec { unit })),
+        Kind::ToolDistance(proto::ToolDistanceWorld { point_m, unit }) => {
+            Ok(WorldSpec::ToolDistance(ToolDistanceSpec { point_m: triple("/spec/point_m", &point_m)?, unit }))
+        }
         Kind::Coverage(world) => coverage(world).map(WorldSpec::Coverage),
     }
 }
@@ -42,6 +45,9 @@ impl From<WorldSpec> for proto::WorldSpec {
     fn from(spec: WorldSpec) -> Self {
         let kind = match spec {
             WorldSpec::ToolPosition(ToolPositionSpec { unit }) => Kind::ToolPosition(proto::ToolPositionWorld { unit }),
+            WorldSpec::ToolDistance(ToolDistanceSpec { point_m, unit }) => {
+                Kind::ToolDistance(proto::ToolDistanceWorld { point_m: point_m.to_vec(), unit })
+            }
             WorldSpec::Coverage(spec) => Kind::Coverage(spec.into()),
         };
         Self { kind: Some(kind) }
