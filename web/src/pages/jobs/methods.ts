@@ -73,5 +73,7 @@ export function methodNamed(name: MethodName): Method | undefined {
 
 /** The methods that work in a world; all of them until one is chosen. */
 export function methodsFor(world: World | undefined): readonly Method[] {
-  return METHODS.filter((method) => world === undefined || method.world === undefined || method.world === world.spec.kind);
+  if (world === undefined) return METHODS;
+  const covers = world.spec.kind === "coverage";
+  return METHODS.filter((method) => method.world === undefined || (method.world === "coverage") === covers);
 }
