@@ -145,7 +145,7 @@ fn folders_import_only_what_they_may() {
 fn forbidden_words_stay_out() {
     let mut violations = Vec::new();
     for (file, text) in sources(&["src"], &["rs"]) {
-        let exempt = file.ends_with("/tests.rs"); // unit tests may read files
+        let exempt = file.ends_with("/tests.rs") || file.contains("/examples/"); // these may read files and print
         let local =
             FORBIDDEN.iter().filter(|(place, _)| !exempt && in_place(&file, place)).flat_map(|(_, words)| *words);
         let words: Vec<_> = local.chain(FORBIDDEN_EVERYWHERE).collect();

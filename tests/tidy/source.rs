@@ -40,10 +40,10 @@ pub fn code_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Whether all of a file is test code.
+/// Whether all of a file is test code, or the example of a package.
 pub fn is_test_file(file: &str) -> bool {
     let name = file.rsplit('/').next().unwrap_or(file);
-    name.ends_with("tests.rs") || name == "fixtures.rs" || name == "suite.rs"
+    file.contains("/examples/") || name.ends_with("tests.rs") || name == "fixtures.rs" || name == "suite.rs"
 }
 
 /// The text up to the file's unit tests.

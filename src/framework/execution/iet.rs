@@ -15,14 +15,13 @@ use super::observations::{Observations, Seen};
 use super::owner::Owner;
 use super::result::{GoalResult, Progress, RunResult, TracePoint, digest, record};
 use super::setup::Setup;
-use super::simulate::world_of;
 use super::spec::Problem;
 use super::state::{GoalState, IetState, STATE_VERSION};
 use crate::constraint::Proposal;
 use crate::method::per_goal::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
 use crate::method::whole_run::{Proposal as Next, Trial};
 use crate::robot::Chain;
-use crate::world::World;
+use crate::world::{self, World};
 
 /// The candidate by which a winner that was never executed is executed.
 const CONFIRMATION: u64 = u64::MAX;
@@ -156,7 +155,8 @@ impl Iet {
     /// # Errors
     /// [`ProblemError::World`], though a run that could be made has a world.
     pub fn world(&self) -> Result<Box<dyn World>, ProblemError> {
-        world_of(&self.setup.world, self.setup.spec.reality.as_ref(), &self.setup.chain, self.seed)
+        let reality = self.setup.spec.reality.as_ref();
+        Ok(world::simulated(&self.setup.world, reality, &self.setup.chain, self.seed)?)
     }
 
     /// U_1..U_j-1, or the accepted poses of a method that owns the run: what must be executed, in order, before each

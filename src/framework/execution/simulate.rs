@@ -7,27 +7,14 @@ use super::result::{Progress, RunResult};
 use super::spec::Problem;
 use crate::method::per_goal::{Batch, Provenance};
 use crate::robot::Chain;
-use crate::world::{self, RealitySpec, World, WorldSpec};
+use crate::world::{self, World};
 
 /// The simulated world of a run of `problem` with `chain` and `seed`: as described, or as far off as `reality` says.
 ///
 /// # Errors
 /// [`ProblemError::World`] if the world cannot be built.
 pub fn simulated_world(problem: &Problem, chain: &Chain, seed: u64) -> Result<Box<dyn World>, ProblemError> {
-    world_of(&problem.world, problem.execution.reality.as_ref(), chain, seed)
-}
-
-/// As [`simulated_world`].
-pub(super) fn world_of(
-    spec: &WorldSpec,
-    reality: Option<&RealitySpec>,
-    chain: &Chain,
-    seed: u64,
-) -> Result<Box<dyn World>, ProblemError> {
-    Ok(match reality {
-        Some(reality) => world::build_real(spec, chain, reality, seed)?,
-        None => world::build(spec, chain)?,
-    })
+    Ok(world::simulated(&problem.world, problem.execution.reality.as_ref(), chain, seed)?)
 }
 
 /// Candidates asked for at once.

@@ -55,6 +55,22 @@ pub fn build(spec: &WorldSpec, chain: &Chain) -> Result<Box<dyn World>, WorldErr
     })
 }
 
+/// The world of `spec` as described, or as far off as `reality` says; `seed` is the run's.
+///
+/// # Errors
+/// [`WorldError`] as [`build`] and [`build_real`].
+pub fn simulated(
+    spec: &WorldSpec,
+    reality: Option<&RealitySpec>,
+    chain: &Chain,
+    seed: u64,
+) -> Result<Box<dyn World>, WorldError> {
+    match reality {
+        Some(reality) => build_real(spec, chain, reality, seed),
+        None => build(spec, chain),
+    }
+}
+
 impl WorldSpec {
     /// What can be relied on in this world.
     #[must_use]
