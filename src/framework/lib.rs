@@ -3,8 +3,10 @@
 //! # Architecture Invariants
 //! - Pure: no async, no I/O, no clock, no environment, no global random source, no logging.
 //! - SI units and radians inside; *features* keep the unit their demonstration declares.
-//! - A package of its own, `cgda-core`; the service re-exports it as `cgda::framework`.
-
+//! - A package of its own, `cgda-core`, that knows no service, no command line and no paper; the service re-exports it as
+//!   `cgda::framework`.
+#![doc = ""]
+#![doc = include_str!("README.md")]
 #![warn(missing_docs)]
 
 pub mod constraint;
