@@ -10,7 +10,7 @@ pub(crate) use tests::shipped;
 
 use crate::execution::{ExecutionSpec, Problem};
 use crate::generalization::Goals;
-use crate::method::per_goal::MethodSpec;
+use crate::method::MethodSpec;
 use crate::robot::RobotSpec;
 use crate::world::WorldSpec;
 use serde::Deserialize;

@@ -65,7 +65,7 @@ pub fn preset(name: &str) -> Result<Preset, ShippedError> {
 mod tests {
     use super::*;
     use crate::framework::execution::Iet;
-    use crate::framework::method::per_goal::MethodSpec;
+    use crate::framework::method::MethodSpec;
 
     #[test]
     fn every_shipped_preset_can_be_run() {

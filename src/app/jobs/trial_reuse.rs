@@ -9,7 +9,6 @@ use super::reference::missing;
 use crate::app::App;
 use crate::app::model::{AppError, EarlierRun, ExecutionRequest, FieldError, RobotView, RunView};
 use crate::framework::execution::Problem;
-use crate::framework::method::per_goal::MethodSpec;
 use crate::framework::method::whole_run::Trial;
 use serde_json::json;
 use sha2::{Digest as _, Sha256};
@@ -57,7 +56,7 @@ impl App {
         request: &mut ExecutionRequest,
         setup_key: Option<&str>,
     ) -> Result<Vec<Trial>, AppError> {
-        let begins_with_trials = matches!(request.execution.method, MethodSpec::Model(_));
+        let begins_with_trials = request.execution.method.profile().learns_from_earlier_runs;
         let found = match (&request.earlier_runs, setup_key) {
             (None, Some(setup_key)) if begins_with_trials => self.ports.store.runs_on(setup_key, MAX_RUNS).await?,
             (None, _) => return Ok(Vec::new()),

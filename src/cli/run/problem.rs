@@ -5,11 +5,13 @@ use crate::cli::demonstrations::{ReadArguments, read_demonstrations};
 use crate::cli::values::{Metric, Weighting};
 use crate::framework::execution::{ExecutionSpec, Problem};
 use crate::framework::generalization::{GeneralizeSpec, generalize};
-use crate::framework::method::per_goal::{MethodSpec, SstSpec};
+use crate::framework::method::per_goal::SstSpec;
+use crate::framework::method::{MethodSpec, catalogue};
 use crate::framework::preset::{self, Preset};
 use crate::framework::robot::RobotSpec;
 use crate::reproduce::shipped;
 use anyhow::{Context as _, bail};
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, clap::Args)]
@@ -21,7 +23,7 @@ pub(super) struct ProblemArguments {
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Optimisation method, with the preset's own parameters for it if it has any.
-    #[arg(long, value_parser = clap::builder::PossibleValuesParser::new(MethodSpec::NAMES))]
+    #[arg(long, value_parser = PossibleValuesParser::new(methods()))]
     method: Option<String>,
     /// End a goal once an observation is this close to it (Euclidean, features' unit).
     #[arg(long)]
@@ -68,6 +70,11 @@ pub(super) struct ProblemArguments {
     features: Vec<String>,
     #[command(flatten)]
     read: ReadArguments,
+}
+
+/// The names of all methods, each with the sentence the catalogue has for it.
+fn methods() -> impl Iterator<Item = PossibleValue> {
+    catalogue().into_iter().map(|entry| PossibleValue::new(entry.name).help(entry.purpose))
 }
 
 fn joint_value(argument: &str) -> Result<(String, f64), String> {

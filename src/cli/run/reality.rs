@@ -1,8 +1,7 @@
 //! Options for the simulated real world and for what the method knows about it.
 
 use crate::framework::execution::Problem;
-use crate::framework::method::per_goal::MethodSpec;
-use crate::framework::method::whole_run::Prior;
+use crate::framework::method::Knowledge;
 use crate::framework::world::{self, RealitySpec, SurfaceView, WorldSpec};
 
 #[derive(Debug, clap::Args)]
@@ -46,23 +45,9 @@ impl RealityArguments {
         }
         problem.execution.reality = Some(reality);
         // Sensor noise plus the effect of 0.1 degrees in a few joints half a metre away.
-        self.tell(&mut problem.execution.method, per_mm.map_or(0.0, |mm| 2.5 * mm));
-    }
-
-    fn tell(&self, method: &mut MethodSpec, noise: f64) {
+        let noise = self.noise.then(|| per_mm.map_or(0.0, |mm| 2.5 * mm));
         let simulator = self.prior.map(|prior| prior == PriorArgument::Simulator);
-        match method {
-            MethodSpec::Model(model) => {
-                let prior = simulator.map(|it_is| if it_is { Prior::Simulator } else { Prior::None });
-                model.prior = prior.unwrap_or(model.prior);
-                model.noise = if self.noise { noise } else { model.noise };
-            }
-            MethodSpec::Auto(wishes) => {
-                wishes.simulator = simulator.unwrap_or(wishes.simulator);
-                wishes.noise = if self.noise { noise } else { wishes.noise };
-            }
-            _ => {}
-        }
+        problem.execution.method.assume(&Knowledge { simulator, noise });
     }
 }
 

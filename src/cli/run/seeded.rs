@@ -20,7 +20,7 @@ impl Seeded {
     /// Checks that the two actions fit together: same robot, same world, a method that learns from trials.
     pub(super) fn new(named: Preset, after: Option<Preset>, random_start: bool) -> anyhow::Result<Self> {
         if let Some(before) = &after {
-            if named.problem.execution.method.name() != "model" {
+            if !named.problem.execution.method.profile().learns_from_earlier_runs {
                 bail!("--after needs --method model: no other method learns from trials of an earlier action");
             }
             if !is_same_robot(&named.problem, &before.problem) {

@@ -4,7 +4,8 @@
 use super::fixtures;
 use super::*;
 use crate::execution::{Iet, Observations, Problem, ProblemError, RunResult, run, simulate};
-use crate::method::per_goal::{Batch, MethodSpec, Optimizer, Outcome, Provenance, SearchSpace, start};
+use crate::method::MethodSpec;
+use crate::method::per_goal::{Batch, Optimizer, Outcome, Provenance, SearchSpace, start};
 use crate::preset::shipped;
 use crate::robot::Chain;
 use crate::world;

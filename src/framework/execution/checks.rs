@@ -4,14 +4,12 @@ use super::error::ProblemError;
 use super::spec::ExecutionSpec;
 use crate::constraint::{ConstraintError, HandlingSpec, Rules};
 use crate::generalization::Goals;
-use crate::method::per_goal::MethodSpec;
+use crate::method::per_goal::OptimizerError;
 use crate::method::whole_run::Trial;
-use crate::world::WorldSpec;
+use crate::world::WorldProperties;
 
 /// Largest goal, features' unit: as large as a demonstration may be.
 const MOST_GOAL: f64 = 1e9;
-/// Most times a pose is compared with a cell when PARTICLE-IET draws its robots: a second of work.
-const MOST_COMPARISONS: f64 = 67_108_864.0;
 
 /// A number, the range it keeps to and the remedy.
 type Range = (&'static str, f64, std::ops::RangeInclusive<f64>, &'static str);
@@ -21,58 +19,17 @@ fn first_outside(ranges: impl IntoIterator<Item = Range>) -> Result<(), ProblemE
     wrong.map_or(Ok(()), |(field, value, _, expected)| Err(ProblemError::Value { field, value, expected }))
 }
 
-/// Whether the method's own numbers make sense, alone and together with the world.
-pub(super) fn check_method(spec: &ExecutionSpec, world: &WorldSpec) -> Result<(), ProblemError> {
-    let noise = |value| ("noise", value, 0.0..=1e6, "give 0 to 1e6, in the features' unit");
-    let moves = |value| ("identification_deg", value, 0.1..=180.0, "give 0.1 to 180 degrees");
-    let tries = |value: u32| ("max_tries", f64::from(value), 1.0..=1e4, "give 1 to 10000");
-    let trials = |value: u32| ("max_evaluations", f64::from(value), 1.0..=1e5, "give 1 to 100000");
-    let step = spec.method.max_step_deg();
-    first_outside(step.map(|step| ("max_step_deg", step, 0.1..=1e4, "give 0.1 degrees or more")))?;
-    match &spec.method {
-        MethodSpec::Auto(wishes) => first_outside([noise(wishes.noise)])?,
-        MethodSpec::Model(method) => {
-            first_outside([noise(method.noise), moves(method.identification_deg), tries(method.max_tries)])?;
-        }
-        MethodSpec::Broyden(method) => first_outside([
-            moves(method.identification_deg),
-            ("longest_step_deg", method.longest_step_deg, 0.1..=360.0, "give 0.1 to 360 degrees"),
-            tries(method.max_tries),
-        ])?,
-        MethodSpec::Search(method) => first_outside([
-            trials(method.max_evaluations),
-            ("poses", f64::from(method.poses), 1.0..=4096.0, "give 1 to 4096"),
-        ])?,
-        MethodSpec::Particle(method) => {
-            let (poses, particles) = (f64::from(method.poses), f64::from(method.particles));
-            let cells = world.properties().surface.map_or(1.0, |surface| surface.columns as f64 * surface.rows as f64);
-            let together = "poses x particles x cells is at most 2^26: give fewer of one of them";
-            first_outside([
-                trials(method.max_evaluations),
-                ("poses", poses, 1.0..=8192.0, "give 1 to 8192"),
-                ("particles", particles, 1.0..=1024.0, "give 1 to 1024"),
-                ("link_share", method.link_share, 0.0..=0.5, "give 0 to 0.5"),
-                ("base_shift_m", method.base_shift_m, 0.0..=10.0, "give 0 to 10 m"),
-                ("poses x particles x cells", poses * particles * cells, 1.0..=MOST_COMPARISONS, together),
-            ])?;
-        }
-        _ => {}
+/// Whether the method's parameters make sense, and whether it can work in the world and within the limits asked for.
+pub(super) fn check_method(spec: &ExecutionSpec, world: &WorldProperties) -> Result<(), ProblemError> {
+    let method = spec.method.name();
+    spec.method.check(world).map_err(|number| OptimizerError::Parameter { method, number })?;
+    spec.method.fits(world).map_err(|expected| ProblemError::Method { method, expected })?;
+    if spec.max_evaluations_per_goal.is_some() && !spec.method.keeps_goal_limits() {
+        let expected = "no max_evaluations_per_goal, for it plans all goals together: leave it out, or limit max_tries or \
+                        max_evaluations of the method";
+        return Err(ProblemError::Method { method, expected });
     }
-    let refuse = |expected| Err(ProblemError::Method { method: spec.method.name(), expected });
-    match &spec.method {
-        MethodSpec::Model(_) | MethodSpec::Broyden(_) if !world.properties().smooth => {
-            refuse("features that follow the pose without jumps; for a surface take particle or search")
-        }
-        MethodSpec::Broyden(_) | MethodSpec::Particle(_) | MethodSpec::Search(_)
-            if spec.max_evaluations_per_goal.is_some() =>
-        {
-            refuse(
-                "no max_evaluations_per_goal, for it searches all goals together: leave it out, or limit max_tries or \
-                    max_evaluations of the method",
-            )
-        }
-        _ => Ok(()),
-    }
+    Ok(())
 }
 
 /// Whether every goal is a number that distances can be computed of.
@@ -110,23 +67,11 @@ pub(super) fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
     not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
     not_negative("rounding_noise", spec.rounding_noise)?;
     Rules::check(&spec.handling, spec.on_infeasible)?;
-    let unexecuted_may_win = match &spec.method {
-        MethodSpec::FiPso(method) => method.unexecuted_may_win,
-        MethodSpec::AffgPso(method) => method.unexecuted_may_win,
-        MethodSpec::Auto(_)
-        | MethodSpec::Sst(_)
-        | MethodSpec::Pso(_)
-        | MethodSpec::CmaEs(_)
-        | MethodSpec::Broyden(_)
-        | MethodSpec::Model(_)
-        | MethodSpec::Particle(_)
-        | MethodSpec::Search(_) => false,
-    };
-    if spec.method.owns_the_run() && !matches!(spec.handling, HandlingSpec::Rejecting { .. }) {
+    if spec.method.plans_whole_run() && !matches!(spec.handling, HandlingSpec::Rejecting { .. }) {
         let expected = "handling \"rejecting\": it proposes no infeasible pose that another strategy could judge";
         return Err(ProblemError::Method { method: spec.method.name(), expected });
     }
-    if unexecuted_may_win && !spec.constraints.is_empty() {
+    if spec.method.unexecuted_may_win() && !spec.constraints.is_empty() {
         return Err(ConstraintError::UnexecutedWinner.into());
     }
     if spec.max_evaluations_per_goal == Some(0) {
@@ -156,12 +101,12 @@ mod tests {
     #[case("wax", json!({"name": "auto", "noise": 1e9}), "noise is 1")]
     #[case("wax", json!({"name": "model", "max_tries": 0}), "max_tries is 0")]
     #[case("wax", json!({"name": "model", "identification_deg": -45.0}), "identification_deg is -45")]
-    #[case("wax", json!({"name": "model", "max_step_deg": 1e-9}), "0.1 degrees or more")]
+    #[case("wax", json!({"name": "model", "max_step_deg": 1e-9}), "give 0.1 to 10000 degrees")]
     #[case("wax", json!({"name": "broyden", "longest_step_deg": 0.0}), "longest_step_deg is 0")]
     #[case("paint", json!({"name": "model"}), "particle or search")]
     #[case("paint", json!({"name": "search", "max_evaluations": 0}), "max_evaluations is 0")]
     #[case("paint", json!({"name": "particle", "base_shift_m": 1e9}), "0 to 10 m")]
-    #[case("paint", json!({"name": "particle", "particles": 1024, "poses": 8192}), "fewer of one")]
+    #[case("paint", json!({"name": "particle", "particles": 1024, "poses": 8192}), "poses x particles x cells is")]
     fn absurd_methods_are_refused(#[case] preset: &str, #[case] method: Value, #[case] says: &str) {
         let error = refusal(preset, &json!({ "method": method }));
         assert!(error.contains(says), "{error:?}");

@@ -92,7 +92,7 @@ fn duration(seconds: f64) -> String {
 mod tests {
     use super::*;
     use crate::execution::run;
-    use crate::method::per_goal::MethodSpec;
+    use crate::method::MethodSpec;
     use crate::preset::shipped;
     use rstest::rstest;
     use std::cell::Cell;

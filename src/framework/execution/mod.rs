@@ -3,7 +3,8 @@
 #[cfg(test)]
 mod bounded_tests;
 mod checks;
-mod choice;
+#[cfg(test)]
+mod choice_tests;
 mod discrepancy;
 mod error;
 mod estimate;
@@ -24,7 +25,7 @@ mod tests;
 #[cfg(test)]
 mod unknown_tests;
 
-pub use choice::Chosen;
+pub use crate::method::Chosen;
 pub use discrepancy::PartialDiscrepancy;
 pub use error::ProblemError;
 pub use estimate::{Preview, ROBOT_TRIAL_S, in_words};

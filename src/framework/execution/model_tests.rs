@@ -3,7 +3,8 @@
 use super::*;
 use crate::Feature;
 use crate::generalization::Goals;
-use crate::method::per_goal::{MethodSpec, StopReason};
+use crate::method::MethodSpec;
+use crate::method::per_goal::StopReason;
 use crate::method::whole_run::{ModelSpec, Prior, Trial};
 use crate::preset::shipped;
 use crate::robot::RobotSpec;

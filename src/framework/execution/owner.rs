@@ -6,7 +6,9 @@ use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
 use crate::constraint::Proposal as Pose;
-use crate::method::per_goal::{MethodSpec, ParticleSpec, Provenance, StopReason, Tally};
+use crate::method::MethodSpec;
+use crate::method::per_goal::{Provenance, StopReason, Tally};
+use crate::method::whole_run::ParticleSpec;
 use crate::method::whole_run::{
     Broyden, CoverSpec, FeatureMap, Grid, ModelIet, ModelSpec, ParticleIet, Prior, Proposal, SearchIet, Simulator,
     Space, StepLimits, Stepped, Targets, Trial, WholeRun,

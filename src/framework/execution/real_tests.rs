@@ -1,7 +1,8 @@
 //! Runs in a simulated real world that loses observations: every method goes on, and each lost one costs.
 
 use super::*;
-use crate::method::per_goal::{Batch, MethodSpec, Provenance};
+use crate::method::MethodSpec;
+use crate::method::per_goal::{Batch, Provenance};
 use crate::preset::shipped;
 use crate::world::RealitySpec;
 use rstest::rstest;

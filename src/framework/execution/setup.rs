@@ -1,13 +1,12 @@
 //! A problem made ready: robot, goals and world proven to fit together.
 
 use super::checks::{check_earlier, check_goals, check_method, check_spec};
-use super::choice::choose;
 use super::error::ProblemError;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
 use crate::constraint::{Constrained, Constraints, Rules};
 use crate::generalization::Goals;
-use crate::method::per_goal::{self, MethodSpec, Optimizer, OptimizerState, SearchSpace};
+use crate::method::per_goal::{self, Optimizer, OptimizerState, SearchSpace};
 use crate::method::whole_run::Trial;
 use crate::robot::{Chain, RobotModel};
 use crate::world::{self, WorldSpec};
@@ -33,16 +32,16 @@ pub(super) struct Setup {
 impl Setup {
     pub(super) fn new(problem: &Problem) -> Result<Self, ProblemError> {
         let mut spec = problem.execution.clone();
-        if let MethodSpec::Auto(wishes) = &spec.method {
-            spec.method = choose(wishes, &spec, &problem.world).0;
+        if let Some((method, _)) = spec.stands_for(&problem.world) {
+            spec.method = method;
         }
         check_spec(&spec)?;
-        check_method(&spec, &problem.world)?;
+        check_method(&spec, &problem.world.properties())?;
         check_goals(&problem.goals)?;
         let model = RobotModel::from_urdf(&problem.urdf)?;
         let chain = Chain::new(&model, &problem.robot)?;
         let constraints = Constraints::new(&spec.constraints, &model, &problem.robot, &chain)?;
-        if spec.method.owns_the_run() && constraints.needs_a_population() {
+        if spec.method.plans_whole_run() && constraints.needs_a_population() {
             let expected = "constraints without population_velocity, for it breeds no population: take joint_step";
             return Err(ProblemError::Method { method: spec.method.name(), expected });
         }

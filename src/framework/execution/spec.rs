@@ -1,10 +1,9 @@
 //! A problem: all an execution needs, self-contained and serialisable, so that a job can be rerun from it alone.
 
-use super::choice::Chosen;
 use crate::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::generalization::Goals;
-use crate::method::per_goal::{MethodChoice, MethodSpec, method_or_name};
 use crate::method::whole_run::Trial;
+use crate::method::{Chosen, MethodChoice, MethodSpec, choose, method_or_name};
 use crate::recognition::Metric;
 use crate::robot::RobotSpec;
 use crate::world::{RealitySpec, WorldSpec};
@@ -71,6 +70,21 @@ pub struct ExecutionSpec {
     pub on_infeasible: OnInfeasible,
 }
 
+impl Problem {
+    /// Puts the method that `auto` stands for in its place and records why; an earlier choice is kept only while it is
+    /// still the method.
+    pub fn choose(&mut self) {
+        let chosen = self.execution.stands_for(&self.world);
+        let execution = &mut self.execution;
+        if let Some((method, reason)) = chosen {
+            execution.chosen = Some(Chosen { method: method.name().to_owned(), reason: reason.to_owned() });
+            execution.method = method;
+        } else if execution.chosen.as_ref().is_some_and(|chosen| chosen.method != execution.method.name()) {
+            execution.chosen = None;
+        }
+    }
+}
+
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
@@ -92,5 +106,17 @@ impl ExecutionSpec {
             handling: HandlingSpec::default(),
             on_infeasible: OnInfeasible::default(),
         }
+    }
+
+    /// The method that `auto` stands for in `world`, and why; `None` if the method is given by its own name.
+    pub(super) fn stands_for(&self, world: &WorldSpec) -> Option<(MethodSpec, &'static str)> {
+        let wishes = self.method.wishes()?;
+        Some(choose(wishes, self.needs_population(), &world.properties()))
+    }
+
+    /// Whether a method that plans the whole run would refuse the constraints or their handling.
+    fn needs_population(&self) -> bool {
+        let ancestors = |constraint: &ConstraintSpec| matches!(constraint, ConstraintSpec::PopulationVelocity(_));
+        self.constraints.iter().any(ancestors) || !matches!(self.handling, HandlingSpec::Rejecting { .. })
     }
 }

@@ -1,9 +1,8 @@
 //! Runs of the shipped presets: the published figures, determinism, resumption, stop rules, refusals.
 
 use super::*;
-use crate::method::per_goal::{
-    Batch, BoundsRule, MethodSpec, Provenance, SstSpec, StopReason, SwarmSpec, VelocityClamp,
-};
+use crate::method::MethodSpec;
+use crate::method::per_goal::{Batch, BoundsRule, Provenance, SstSpec, StopReason, SwarmSpec, VelocityClamp};
 use crate::preset::shipped;
 use crate::world::{self, WorldSpec};
 use proptest::prelude::*;

@@ -3,7 +3,8 @@
 use super::*;
 use crate::execution::{ExecutionSpec, Problem};
 use crate::generalization::Goals;
-use crate::method::per_goal::{MethodSpec, PsoSpec, SstSpec, SwarmSpec, Tally};
+use crate::method::MethodSpec;
+use crate::method::per_goal::{PsoSpec, SstSpec, SwarmSpec, Tally};
 use crate::preset::Preset;
 use crate::world::{ToolPositionSpec, WorldSpec};
 use crate::{Feature, recognition::Metric, robot::RobotSpec};

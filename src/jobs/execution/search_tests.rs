@@ -206,7 +206,8 @@ async fn a_lost_observation_costs_an_evaluation_and_a_refused_trial_none() {
 #[tokio::test]
 async fn only_real_trials_are_checked_against_the_joint_limits() {
     let open = |problem: &mut Problem| {
-        use crate::framework::method::per_goal::{BoundsRule, MethodSpec};
+        use crate::framework::method::MethodSpec;
+        use crate::framework::method::per_goal::BoundsRule;
         let MethodSpec::Sst(spec) = &mut problem.execution.method else { panic!("sst was chosen") };
         spec.bounds = BoundsRule::Open;
         spec.mutation_probability = 1.0;

@@ -1,5 +1,6 @@
 //! What becomes of a gene outside its limits.
 
+use crate::method::parameters::Choice;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -14,6 +15,10 @@ pub enum BoundsRule {
     Reflect,
     /// Nothing, as in the published runs: a pose may be found that the robot cannot take.
     Open,
+}
+
+impl Choice for BoundsRule {
+    const ALL: &'static [Self] = &[Self::Clamp, Self::Reflect, Self::Open];
 }
 
 impl BoundsRule {

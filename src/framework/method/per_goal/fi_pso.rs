@@ -8,9 +8,32 @@
 //! Source: M. Reyes-Sierra, C. A. Coello Coello, "Fitness inheritance in multi-objective particle swarm optimization",
 //! IEEE Swarm Intelligence Symposium 2005, 116-123 (flight formula in objective space).
 
-use super::swarm::{Estimator, Flight, Swarm, SwarmState};
-use super::{FiPsoSpec, Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
+use super::swarm::{Estimator, Flight, Swarm, SwarmSpec, SwarmState};
+use super::{Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
+use crate::method::contract::{Method, Profile};
+use crate::method::parameters::parameters;
 use crate::random::RandomStream;
+
+parameters! {
+    /// Parameters of FI-PSO, a particle swarm whose particles inherit some of their fitness.
+    pub struct FiPsoSpec {
+        /// The swarm.
+        pub swarm: SwarmSpec = SwarmSpec::default();
+        /// Probability that a moved particle inherits its fitness instead of being executed.
+        pub inheritance_probability: f64 = 0.55, in 0.0..=1.0;
+        /// A particle whose fitness was inherited may be a goal's result, as in the published runs.
+        pub unexecuted_may_win: bool = false;
+    }
+}
+
+impl Method for FiPsoSpec {
+    fn profile(&self) -> Profile {
+        Profile::PER_GOAL
+    }
+    fn unexecuted_may_win(&self) -> bool {
+        self.unexecuted_may_win
+    }
+}
 
 /// Inherits with that probability.
 #[derive(Debug)]
@@ -50,16 +73,8 @@ fn inherited(flight: &Flight<'_>) -> f64 {
 }
 
 fn estimator(spec: &FiPsoSpec) -> Result<Inheritance, OptimizerError> {
-    let probability = spec.inheritance_probability;
-    if !(0.0..=1.0).contains(&probability) {
-        return Err(OptimizerError::Parameter {
-            method: "fi_pso",
-            parameter: "inheritance_probability",
-            value: probability,
-            expected: "0 to 1 are allowed",
-        });
-    }
-    Ok(Inheritance { probability, may_win: spec.unexecuted_may_win })
+    OptimizerError::check("fi_pso", spec)?;
+    Ok(Inheritance { probability: spec.inheritance_probability, may_win: spec.unexecuted_may_win })
 }
 
 /// A fresh search.

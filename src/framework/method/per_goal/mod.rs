@@ -9,27 +9,27 @@
 mod affg_pso;
 mod batch;
 mod bounds;
-mod choice;
 mod cma_es;
 mod fi_pso;
-mod granules;
 mod incumbent;
 mod pso;
-mod spec;
 mod sst;
 mod swarm;
 mod waiting;
 
-pub use affg_pso::AffgState;
+pub use affg_pso::{AffgPsoSpec, AffgState};
 pub use batch::Batch;
 pub use bounds::BoundsRule;
-pub use choice::{MethodChoice, method_or_name};
 pub use cma_es::{CmaEs, CmaEsSpec, CmaEsState};
+pub use fi_pso::FiPsoSpec;
 pub(crate) use incumbent::Incumbent;
-pub use spec::{AutoSpec, MethodSpec, ParticleSpec, SstSpec};
-pub use sst::{Sst, SstState};
-pub use swarm::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, SwarmState, VelocityClamp};
+pub use pso::PsoSpec;
+pub use sst::{Sst, SstSpec, SstState};
+pub use swarm::{Leader, SwarmSpec, SwarmState, VelocityClamp};
 
+use super::catalogue::MethodSpec;
+use super::parameters::Parameters;
+use super::range::OutOfRange;
 use crate::constraint::ConstrainedState;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -247,16 +247,12 @@ pub struct SearchSpace {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OptimizerError {
     /// A parameter out of its range.
-    #[error("{method}: {parameter} is {value}, {expected}")]
+    #[error("{method}: {number}")]
     Parameter {
         /// Method name.
         method: &'static str,
-        /// Parameter name.
-        parameter: &'static str,
-        /// The value given.
-        value: f64,
-        /// The range.
-        expected: &'static str,
+        /// The parameter, its value and its range.
+        number: OutOfRange,
     },
     /// A method that has no search of one goal.
     #[error("{method} owns the whole run: it cannot search for one goal alone")]
@@ -297,6 +293,14 @@ pub enum OptimizerError {
         /// Number needed.
         expected: usize,
     },
+}
+
+impl OptimizerError {
+    /// # Errors
+    /// [`OptimizerError::Parameter`] for a parameter of `method` that is out of its range.
+    fn check(method: &'static str, parameters: &impl Parameters) -> Result<(), Self> {
+        parameters.check_ranges().map_err(|number| Self::Parameter { method, number })
+    }
 }
 
 /// A fresh search by `method`; `stream` separates the goals of one seed.

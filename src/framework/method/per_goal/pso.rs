@@ -4,9 +4,25 @@
 //! random pair a particle, the currently best particle as leader, and memories that begin at random near 0: all named
 //! options of [`SwarmSpec`](super::SwarmSpec). Movement and sources: the swarm's `movement` module.
 
-use super::swarm::{Estimator, Flight, Swarm, SwarmState};
-use super::{Optimizer, OptimizerError, OptimizerState, Provenance, PsoSpec, SearchSpace};
+use super::swarm::{Estimator, Flight, Swarm, SwarmSpec, SwarmState};
+use super::{Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
+use crate::method::contract::{Method, Profile};
+use crate::method::parameters::parameters;
 use crate::random::RandomStream;
+
+parameters! {
+    /// Parameters of PSO, particle swarm optimisation.
+    pub struct PsoSpec {
+        /// The swarm.
+        pub swarm: SwarmSpec = SwarmSpec::default();
+    }
+}
+
+impl Method for PsoSpec {
+    fn profile(&self) -> Profile {
+        Profile::PER_GOAL
+    }
+}
 
 /// Estimates nothing.
 #[derive(Debug)]

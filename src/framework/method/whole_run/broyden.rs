@@ -21,9 +21,9 @@ use super::distance::distance;
 use super::refine::{Local, refine};
 use super::space::Space;
 use super::{Outcome, Proposal, Trial, WholeRun};
+use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
+use crate::method::parameters::parameters;
 use nalgebra::{DMatrix, DVector};
-use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Steps in a row that come no nearer before the Jacobian is made anew.
 const FAILURES: u32 = 3;
@@ -34,26 +34,30 @@ const STEPS: usize = 60;
 /// Smallest step (rad, or the like share of a stroke) that teaches the Jacobian anything.
 const LEAST_STEP: f64 = 1e-4;
 
-/// Parameters of the Broyden Gauss-Newton method.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct BroydenSpec {
-    /// A goal is given up after this many trials of its own.
-    pub max_tries: u32,
-    /// Times a goal's Jacobian may be made anew.
-    pub restarts: u32,
-    /// Size of the identification moves, degrees (of 180 a stroke for prismatic joints).
-    pub identification_deg: f64,
-    /// Half the side of the largest box a step may be taken in, degrees (likewise).
-    pub longest_step_deg: f64,
-    /// Largest step of a joint from one trial to the next, degrees (likewise); none where the robot needs none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_step_deg: Option<f64>,
+parameters! {
+    /// Parameters of the Broyden Gauss-Newton method.
+    pub struct BroydenSpec {
+        /// A goal is given up after this many trials of its own.
+        pub max_tries: u32 = 15, in 1..=10_000;
+        /// How often a goal's Jacobian may be made anew.
+        pub restarts: u32 = 1;
+        /// Size of the identification moves (of 180 degrees per stroke for prismatic joints).
+        pub identification_deg: f64 = 25.0, in 0.1..=180.0, unit "degrees";
+        /// Half the side of the largest box a step may be taken in (of 180 degrees per stroke for prismatic joints).
+        pub longest_step_deg: f64 = 40.0, in 0.1..=360.0, unit "degrees";
+        /// Largest step of a joint from one trial to the next (of 180 degrees per stroke for prismatic joints); any step if
+        /// absent.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub max_step_deg: Option<f64> = None, in 0.1..=1e4, unit "degrees";
+    }
 }
 
-impl Default for BroydenSpec {
-    fn default() -> Self {
-        Self { max_tries: 15, restarts: 1, identification_deg: 25.0, longest_step_deg: 40.0, max_step_deg: None }
+impl Method for BroydenSpec {
+    fn profile(&self) -> Profile {
+        Profile { few_evaluations: false, ..Profile::whole_run(Effects::Smooth, SimulatorUse::Never) }
+    }
+    fn max_step_deg(&self) -> Option<f64> {
+        self.max_step_deg
     }
 }
 

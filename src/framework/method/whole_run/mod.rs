@@ -21,7 +21,7 @@ mod surface;
 
 pub use broyden::{Broyden, BroydenSpec};
 pub use model::{ModelIet, ModelSpec, Prior};
-pub use particle::{ParticleIet, Simulator};
+pub use particle::{ParticleIet, ParticleSpec, Simulator};
 pub use search::SearchIet;
 pub use space::{Allows, Axis, Space};
 pub use steps::{StepLimits, Stepped, Targets};

@@ -6,7 +6,7 @@ mod whole_run;
 
 use super::{finite, required};
 use crate::app::model::AppError;
-use crate::framework::method::per_goal::{AutoSpec, MethodSpec};
+use crate::framework::method::{AutoSpec, MethodSpec};
 use crate::grpc::proto;
 use proto::method_spec::Name;
 

@@ -2,8 +2,7 @@
 
 use super::{number, number_or_none};
 use crate::app::model::AppError;
-use crate::framework::method::per_goal::ParticleSpec;
-use crate::framework::method::whole_run::{BroydenSpec, CoverSpec, ModelSpec, Prior};
+use crate::framework::method::whole_run::{BroydenSpec, CoverSpec, ModelSpec, ParticleSpec, Prior};
 use crate::grpc::convert::enumeration::Enumeration as _;
 use crate::grpc::proto;
 

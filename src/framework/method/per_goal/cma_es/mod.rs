@@ -54,7 +54,7 @@ impl CmaEs {
     /// # Errors
     /// [`OptimizerError::Parameter`] for a parameter out of its range.
     pub fn new(spec: &CmaEsSpec, space: SearchSpace, seed: u64, stream: u64) -> Result<Self, OptimizerError> {
-        spec.check()?;
+        OptimizerError::check("cma_es", spec)?;
         let mut rng = RandomStream::new(seed, stream);
         let near = spec.warm_step.zip(space.near.as_deref());
         let warm = near.map(|(step, near)| Distribution::new(scaled(&space, near), step));
@@ -70,7 +70,7 @@ impl CmaEs {
     /// # Errors
     /// [`OptimizerError`] if the state's version or shape does not fit.
     pub fn resume(spec: &CmaEsSpec, space: SearchSpace, state: CmaEsState) -> Result<Self, OptimizerError> {
-        spec.check()?;
+        OptimizerError::check("cma_es", spec)?;
         state.check(spec.lambda(space.lower.len(), state.restarts), &space)?;
         Ok(Self::with(spec, space, state))
     }

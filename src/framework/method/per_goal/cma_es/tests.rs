@@ -1,7 +1,8 @@
 //! Convergence on functions with a known minimum, warm starts, restarts, independence of batch sizes, resumption.
 
 use super::*;
-use crate::method::per_goal::{BoundsRule, MethodSpec, resume, start};
+use crate::method::MethodSpec;
+use crate::method::per_goal::{BoundsRule, resume, start};
 use proptest::prelude::*;
 use rstest::rstest;
 

@@ -11,17 +11,17 @@
 //! Source: R. Fernandez-Fernandez et al.'s runs; ECF, D. Jakobovic et al., <http://ecf.zemris.fer.hr>.
 
 mod operators;
+mod spec;
 mod state;
 #[cfg(test)]
 mod tests;
 
+pub use spec::SstSpec;
 pub use state::SstState;
 
 use super::incumbent::Incumbent;
 use super::waiting::Waiting;
-use super::{
-    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, SstSpec, StopReason,
-};
+use super::{Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason};
 use operators::{CROSSOVERS, Parents, mutate};
 use state::STATE_VERSION;
 
@@ -41,7 +41,7 @@ impl Sst {
     /// # Errors
     /// [`OptimizerError::Parameter`] for a population below 3 or a probability outside 0 to 1.
     pub fn new(spec: &SstSpec, space: SearchSpace, seed: u64, stream: u64) -> Result<Self, OptimizerError> {
-        check(spec)?;
+        OptimizerError::check("sst", spec)?;
         let state = SstState::new(spec.population as usize, &space, seed, stream);
         Ok(Self::with(spec, space, state))
     }
@@ -51,7 +51,7 @@ impl Sst {
     /// # Errors
     /// [`OptimizerError`] if the state's version or shape does not fit.
     pub fn resume(spec: &SstSpec, space: SearchSpace, state: SstState) -> Result<Self, OptimizerError> {
-        check(spec)?;
+        OptimizerError::check("sst", spec)?;
         state.check(spec.population as usize, &space)?;
         Ok(Self::with(spec, space, state))
     }
@@ -171,17 +171,6 @@ impl Sst {
         state.waiting.insert(self.handed, Waiting { id: state.next_id, slot });
         state.next_id += 1;
     }
-}
-
-fn check(spec: &SstSpec) -> Result<(), OptimizerError> {
-    let out = |parameter, value, expected| OptimizerError::Parameter { method: "sst", parameter, value, expected };
-    if !(3..=100_000).contains(&spec.population) {
-        return Err(out("population", f64::from(spec.population), "3 to 100000 are allowed"));
-    }
-    if !(0.0..=1.0).contains(&spec.mutation_probability) {
-        return Err(out("mutation_probability", spec.mutation_probability, "0 to 1 are allowed"));
-    }
-    Ok(())
 }
 
 impl Optimizer for Sst {

@@ -199,7 +199,7 @@ fn failed_trials_never_win() {
 #[test]
 fn refuses_parameters_and_foreign_states() {
     let error = Sst::new(&SstSpec { population: 2, ..SstSpec::default() }, space(None), 1, 0).unwrap_err();
-    assert_eq!(error.to_string(), "sst: population is 2, 3 to 100000 are allowed");
+    assert_eq!(error.to_string(), "sst: population is 2: give 3 to 100000");
     let spec = SstSpec { mutation_probability: f64::NAN, ..SstSpec::default() };
     assert!(Sst::new(&spec, space(None), 1, 0).is_err());
     let saved = sst(&SstSpec { population: 4, ..SstSpec::default() }, 1).state;

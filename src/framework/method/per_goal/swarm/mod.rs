@@ -17,7 +17,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-pub use spec::{AffgPsoSpec, FiPsoSpec, Leader, PsoSpec, SwarmSpec, VelocityClamp};
+pub use spec::{Leader, SwarmSpec, VelocityClamp};
 pub use state::SwarmState;
 
 use super::incumbent::Incumbent;
@@ -82,7 +82,7 @@ impl<E: Estimator> Swarm<E> {
         seed: u64,
         stream: u64,
     ) -> Result<Self, OptimizerError> {
-        spec.check(E::METHOD)?;
+        OptimizerError::check(E::METHOD, spec)?;
         let state = SwarmState::new(spec, &space, seed, stream);
         Ok(Self { spec: spec.clone(), space, state, estimator, handed: 0 })
     }
@@ -93,7 +93,7 @@ impl<E: Estimator> Swarm<E> {
         space: SearchSpace,
         state: SwarmState,
     ) -> Result<Self, OptimizerError> {
-        spec.check(E::METHOD)?;
+        OptimizerError::check(E::METHOD, spec)?;
         state.check(E::METHOD, spec.population as usize, &space)?;
         Ok(Self { spec: spec.clone(), space, state, estimator, handed: 0 })
     }

@@ -1,7 +1,8 @@
 //! Semantics of memory, leader and hall of fame, independence of batch sizes, resumption, and golden runs.
 
 use super::*;
-use crate::method::per_goal::{MethodSpec, resume, start};
+use crate::method::MethodSpec;
+use crate::method::per_goal::{PsoSpec, resume, start};
 use proptest::prelude::*;
 use rstest::rstest;
 

@@ -13,17 +13,18 @@ mod columns;
 mod kernel;
 mod process;
 mod shortlist;
+mod spec;
 #[cfg(test)]
 pub(super) mod tests;
+
+pub use spec::{ModelSpec, Prior};
 
 use super::distance::distance;
 use super::space::Space;
 use super::{FeatureMap, Outcome, Proposal, Trial, WholeRun};
 use crate::random::RandomStream;
 use belief::{Aim, Belief};
-use serde::{Deserialize, Serialize};
 use shortlist::{Starts, nearest_by_prior};
-use utoipa::ToSchema;
 
 /// How many of the measured poses nearest to a goal are searched around.
 const LOCAL_CENTRES: usize = 3;
@@ -32,39 +33,6 @@ const LOCAL_CENTRES: usize = 3;
 const CAUTION: f64 = 0.1;
 const LATE_CAUTION: f64 = 0.02;
 const CAUTIOUS_TRIES: u32 = 4;
-
-/// What a method believes before its first trial.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Prior {
-    /// Nothing: identification moves come first.
-    #[default]
-    None,
-    /// The problem's robot and world as described, which the real ones need not match.
-    Simulator,
-}
-
-/// Parameters of MODEL-IET.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ModelSpec {
-    /// Standard deviation of one observed feature, features' unit; 0 for a world that is exact.
-    pub noise: f64,
-    /// A goal is given up after this many trials of its own.
-    pub max_tries: u32,
-    /// Size of the identification moves, degrees (of 180 a stroke for prismatic joints).
-    pub identification_deg: f64,
-    /// Largest step of a joint from one trial to the next, degrees (likewise); none where the robot needs none.
-    pub max_step_deg: Option<f64>,
-    /// What is believed before the first trial.
-    pub prior: Prior,
-}
-
-impl Default for ModelSpec {
-    fn default() -> Self {
-        Self { noise: 0.0, max_tries: 15, identification_deg: 45.0, max_step_deg: None, prior: Prior::None }
-    }
-}
 
 /// A goal that is still worth a trial.
 struct Open {

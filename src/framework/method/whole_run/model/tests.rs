@@ -5,7 +5,7 @@ use super::kernel::{Kernel, Poses};
 use super::process::{Family, Process};
 use super::{ModelIet, ModelSpec};
 use crate::execution::{Iet, IetState, Problem, RunResult, run, simulate};
-use crate::method::per_goal::MethodSpec;
+use crate::method::MethodSpec;
 use crate::method::whole_run::space::{Axis, Space};
 use crate::method::whole_run::{BroydenSpec, Proposal, Trial, WholeRun};
 use crate::preset;

@@ -8,6 +8,10 @@
 //!
 //! Source: N. J. Gordon, D. J. Salmond, A. F. M. Smith, IEE Proceedings F 140 (1993) 107-113.
 
+mod spec;
+
+pub use spec::ParticleSpec;
+
 use super::space::Space;
 use super::surface::cover::{CoverSpec, Ledger, Verdict, fresh_count};
 use super::surface::sobol;

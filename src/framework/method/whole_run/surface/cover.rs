@@ -4,27 +4,30 @@
 //! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
 //! trial stays. The goal pointer is the first goal above what is observed.
 
+use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
+use crate::method::parameters::parameters;
 use crate::method::whole_run::{Outcome, Proposal, Trial};
-use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
-/// How a run over an accumulating effect ends.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct CoverSpec {
-    /// The run gives up after this many trials.
-    pub max_evaluations: u32,
-    /// Poses to choose from, spread evenly over the joints' ranges (1 to 4096).
-    pub poses: u32,
-    /// Largest step of a joint from one trial to the next, degrees (of 180 a stroke for prismatic joints); none where
-    /// the robot needs none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_step_deg: Option<f64>,
+parameters! {
+    /// Parameters of SEARCH-IET.
+    pub struct CoverSpec {
+        /// The run gives up after this many evaluations.
+        pub max_evaluations: u32 = 400, in 1..=100_000;
+        /// Poses to choose from, spread evenly over the joints' ranges.
+        pub poses: u32 = 2048, in 1..=4096;
+        /// Largest step of a joint from one trial to the next (of 180 degrees per stroke for prismatic joints); any step if
+        /// absent.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub max_step_deg: Option<f64> = None, in 0.1..=1e4, unit "degrees";
+    }
 }
 
-impl Default for CoverSpec {
-    fn default() -> Self {
-        Self { max_evaluations: 400, poses: 2048, max_step_deg: None }
+impl Method for CoverSpec {
+    fn profile(&self) -> Profile {
+        Profile::whole_run(Effects::Accumulating, SimulatorUse::Never)
+    }
+    fn max_step_deg(&self) -> Option<f64> {
+        self.max_step_deg
     }
 }
 

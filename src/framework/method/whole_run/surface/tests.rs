@@ -1,7 +1,9 @@
 //! The methods for surfaces on the shipped wall: bounds on evaluations, worlds that cannot be put back, runs resumed.
 
 use crate::execution::{Iet, Problem, run, simulate};
-use crate::method::per_goal::{MethodSpec, ParticleSpec, StopReason};
+use crate::method::MethodSpec;
+use crate::method::per_goal::StopReason;
+use crate::method::whole_run::ParticleSpec;
 use crate::method::whole_run::model::tests::interrupted;
 use crate::method::whole_run::{Axis, CoverSpec, Grid, Proposal, SearchIet, Space, Trial, WholeRun};
 use crate::preset;

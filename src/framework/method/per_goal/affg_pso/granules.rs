@@ -7,7 +7,7 @@
 //! Source: M. Davarynejad, M.-R. Akbarzadeh-T., N. Pariz, "A novel general framework for evolutionary optimization:
 //! adaptive fuzzy fitness granulation", CEC 2007, with the paper's parameters and rules.
 
-use super::swarm::AffgPsoSpec;
+use super::spec::AffgPsoSpec;
 use serde::{Deserialize, Serialize};
 
 /// An executed particle that stands for its surroundings.

@@ -1,6 +1,6 @@
 //! A method by its name alone, or with its parameters.
 
-use super::spec::MethodSpec;
+use super::catalogue::MethodSpec;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
@@ -46,7 +46,7 @@ impl<'de> Visitor<'de> for MethodVisitor {
 #[cfg(test)]
 mod tests {
     use crate::execution::ExecutionSpec;
-    use crate::method::per_goal::MethodSpec;
+    use crate::method::MethodSpec;
 
     fn read(json: &str) -> Result<ExecutionSpec, String> {
         serde_json::from_str(json).map_err(|error| error.to_string())

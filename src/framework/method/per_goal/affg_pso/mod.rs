@@ -9,10 +9,15 @@
 //! The best fitness of a swarm may then belong to a particle that took it from a granule, never executed; it wins only
 //! with `unexecuted_may_win`, and its goal then reports both its value and the true one.
 
-use super::granules::Granules;
+mod granules;
+mod spec;
+
+pub use spec::AffgPsoSpec;
+
 use super::swarm::{Estimator, Flight, Swarm, SwarmState};
-use super::{AffgPsoSpec, Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
+use super::{Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
 use crate::random::RandomStream;
+use granules::Granules;
 use serde::{Deserialize, Serialize};
 
 /// Threshold where the least fitness is 0: no similarity reaches it.
@@ -68,24 +73,6 @@ fn threshold(alpha: f64, fitness: &[f64]) -> f64 {
     alpha * (finite().sum::<f64>() / finite().count() as f64) / least
 }
 
-fn check(spec: &AffgPsoSpec) -> Result<(), OptimizerError> {
-    let out =
-        |parameter, value, expected| Err(OptimizerError::Parameter { method: "affg_pso", parameter, value, expected });
-    if !(spec.alpha.is_finite() && spec.alpha >= 0.0) {
-        return out("alpha", spec.alpha, "a finite number from 0 is needed");
-    }
-    if !spec.beta.is_finite() {
-        return out("beta", spec.beta, "a finite number is needed");
-    }
-    if !(spec.omega.is_finite() && spec.omega > 0.0) {
-        return out("omega", spec.omega, "a finite number above 0 is needed");
-    }
-    if !(1..=10_000).contains(&spec.granules) {
-        return out("granules", f64::from(spec.granules), "1 to 10000 are allowed");
-    }
-    Ok(())
-}
-
 /// A fresh search.
 ///
 /// # Errors
@@ -96,7 +83,7 @@ pub(super) fn start(
     seed: u64,
     stream: u64,
 ) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    check(spec)?;
+    OptimizerError::check("affg_pso", spec)?;
     let granulation = Granulation { spec: spec.clone(), granules: Granules::default(), threshold: UNREACHABLE };
     Ok(Box::new(Swarm::new(&spec.swarm, granulation, space, seed, stream)?))
 }
@@ -110,7 +97,7 @@ pub(super) fn resume(
     space: SearchSpace,
     state: AffgState,
 ) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    check(spec)?;
+    OptimizerError::check("affg_pso", spec)?;
     if !state.granules.fit(space.lower.len()) {
         let expected = space.lower.len();
         return Err(OptimizerError::Shape { method: "affg_pso", what: "granule genes", found: 0, expected });

@@ -1,0 +1,249 @@
+//! The catalogue: one row per method, from which everything that knows methods by name follows.
+//!
+//! A row holds the method's sentence, the type of its parameters, its name and its label. Parsing, checking, starting and
+//! resuming, the help of the command line and the ranges of the OpenAPI document are made of it.
+//!
+//! # Architecture Invariants
+//! - Nothing outside of this file matches on every method; what a method is or does is asked of the method.
+
+use super::auto::AutoSpec;
+use super::contract::{Knowledge, Method, Profile, Scope};
+use super::parameters::{Parameter, Parameters, sentence};
+use super::per_goal::{AffgPsoSpec, CmaEsSpec, FiPsoSpec, PsoSpec, SstSpec};
+use super::range::OutOfRange;
+use super::whole_run::{BroydenSpec, CoverSpec, ModelSpec, ParticleSpec};
+use crate::world::WorldProperties;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// A method as the catalogue describes it.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub struct MethodEntry {
+    /// Name, as written in presets, in requests and on the command line.
+    pub name: &'static str,
+    /// Name for people.
+    pub label: &'static str,
+    /// What it does and when to take it.
+    pub purpose: String,
+    /// What it is and needs.
+    #[serde(flatten)]
+    pub profile: Profile,
+    /// Its parameters, in the order of a form.
+    pub parameters: Vec<Parameter>,
+    /// Name of the parameters' schema in the OpenAPI document.
+    #[serde(skip)]
+    pub schema: &'static str,
+}
+
+macro_rules! catalogue {
+    ($($(#[doc = $sentence:literal])+ $variant:ident($spec:ident) = $name:literal, $label:literal;)+) => {
+        /// A method with its parameters; `name` picks one.
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+        #[serde(tag = "name")]
+        pub enum MethodSpec {
+            $(
+                $(#[doc = $sentence])+
+                #[serde(rename = $name)]
+                $variant($spec),
+            )+
+        }
+
+        impl MethodSpec {
+            /// Names of all methods.
+            pub const NAMES: [&'static str; [$($name),+].len()] = [$($name),+];
+
+            /// The method of that name with its defaults.
+            #[must_use]
+            pub fn by_name(name: &str) -> Option<Self> {
+                match name {
+                    $($name => Some(Self::$variant($spec::default())),)+
+                    _ => None,
+                }
+            }
+
+            /// The method's name, as written in presets and on the command line.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$variant(_) => $name,)+
+                }
+            }
+
+            fn method(&self) -> &dyn Method {
+                match self {
+                    $(Self::$variant(spec) => spec,)+
+                }
+            }
+
+            fn method_mut(&mut self) -> &mut dyn Method {
+                match self {
+                    $(Self::$variant(spec) => spec,)+
+                }
+            }
+        }
+
+        /// All methods, in the order of a menu.
+        #[must_use]
+        pub fn catalogue() -> Vec<MethodEntry> {
+            vec![$(
+                MethodEntry {
+                    name: $name,
+                    label: $label,
+                    purpose: sentence(&[$($sentence),+]),
+                    profile: $spec::default().profile(),
+                    parameters: $spec::parameters(),
+                    schema: stringify!($spec),
+                }
+            ),+]
+        }
+    };
+}
+
+catalogue! {
+    /// Chosen for the features, the world and the constraints when the job is submitted; the choice and its reason are
+    /// recorded.
+    Auto(AutoSpec) = "auto", "Automatic";
+    /// The paper's steady-state tournament: thousands of evaluations, for simulation.
+    Sst(SstSpec) = "sst", "SST";
+    /// Particle swarm: thousands of evaluations, for simulation.
+    Pso(PsoSpec) = "pso", "PSO";
+    /// Particle swarm with fitness inheritance: fewer evaluations than PSO, farther from the goals.
+    FiPso(FiPsoSpec) = "fi_pso", "FI-PSO";
+    /// Particle swarm with adaptive fuzzy fitness granulation: fewer evaluations than PSO, farther from the goals.
+    AffgPso(AffgPsoSpec) = "affg_pso", "AFFG-PSO";
+    /// Covariance matrix adaptation, begun at the previous goal's result: hundreds of evaluations, for features that jump
+    /// or a robot beyond modelling.
+    CmaEs(CmaEsSpec) = "cma_es", "CMA-ES";
+    /// Gauss-Newton with Broyden's Jacobian, carried over from goal to goal, a classical yardstick: few evaluations where
+    /// it converges, with some bad runs.
+    Broyden(BroydenSpec) = "broyden", "Broyden";
+    /// One Gaussian process of the feature map plans the whole run: a dozen evaluations. Each trial is the pose expected
+    /// nearest to a goal; a goal out of reach is reported with its best residual.
+    Model(ModelSpec) = "model", "MODEL-IET";
+    /// A surface with the described robot as an uncertain simulator: about one evaluation per cell. Many slightly different
+    /// robots vote for the next pose, and each trial reweighs them.
+    Particle(ParticleSpec) = "particle", "PARTICLE-IET";
+    /// A surface with nothing known: each trial goes where past trials leave the best chance of a new cell. About four times
+    /// the evaluations of PARTICLE-IET.
+    Search(CoverSpec) = "search", "SEARCH-IET";
+}
+
+impl MethodSpec {
+    /// What the method is and needs.
+    #[must_use]
+    pub fn profile(&self) -> Profile {
+        self.method().profile()
+    }
+
+    /// Whether it plans the whole run instead of searching goal after goal.
+    #[must_use]
+    pub fn plans_whole_run(&self) -> bool {
+        self.profile().scope == Scope::WholeRun
+    }
+
+    /// Whether every parameter is in its range, alone and together with the world.
+    ///
+    /// # Errors
+    /// The first number that is not.
+    pub fn check(&self, world: &WorldProperties) -> Result<(), OutOfRange> {
+        self.method().check(world)
+    }
+
+    /// Whether the method can work in `world`.
+    ///
+    /// # Errors
+    /// What it needs instead.
+    pub fn fits(&self, world: &WorldProperties) -> Result<(), &'static str> {
+        self.method().fits(world)
+    }
+
+    /// The wishes of `auto`; `None` for every method that can be run as it is.
+    #[must_use]
+    pub fn wishes(&self) -> Option<&AutoSpec> {
+        if let Self::Auto(wishes) = self { Some(wishes) } else { None }
+    }
+
+    /// Takes what is known of robot and sensors, if the method can use it.
+    pub fn assume(&mut self, known: &Knowledge) {
+        self.method_mut().assume(known);
+    }
+
+    /// Whether a candidate that was never executed may be a goal's result.
+    #[must_use]
+    pub fn unexecuted_may_win(&self) -> bool {
+        self.method().unexecuted_may_win()
+    }
+
+    /// Whether a limit of evaluations per goal can be kept.
+    #[must_use]
+    pub fn keeps_goal_limits(&self) -> bool {
+        self.method().keeps_goal_limits()
+    }
+
+    /// Largest step of a joint from one trial to the next, degrees; `None` if any step will do.
+    #[must_use]
+    pub fn max_step_deg(&self) -> Option<f64> {
+        self.method().max_step_deg()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::parameters::Values;
+    use serde_json::{Value, json};
+
+    #[test]
+    fn every_method_says_what_it_is_for_and_each_parameter_too() {
+        for entry in catalogue() {
+            assert!(entry.purpose.ends_with('.') && !entry.purpose.contains("  "), "{}: {}", entry.name, entry.purpose);
+            for parameter in &entry.parameters {
+                assert!(parameter.purpose.ends_with('.'), "{}.{}: {}", entry.name, parameter.name, parameter.purpose);
+            }
+        }
+    }
+
+    #[test]
+    fn defaults_lie_in_their_ranges_and_are_what_a_name_alone_means() {
+        for entry in catalogue() {
+            let method = MethodSpec::by_name(entry.name).unwrap();
+            assert_eq!(method.method().check_ranges(), Ok(()), "{}", entry.name);
+            let written = serde_json::to_value(&method).unwrap();
+            for parameter in &entry.parameters {
+                let default = written.get(parameter.name).cloned().unwrap_or(Value::Null);
+                assert_eq!(default, parameter.default, "{}.{}", entry.name, parameter.name);
+            }
+        }
+    }
+
+    /// Each number just outside its range, written as a user would.
+    #[test]
+    fn a_number_outside_its_range_is_refused_by_name() {
+        for entry in catalogue() {
+            for parameter in &entry.parameters {
+                let (Values::Number { range } | Values::Integer { range }) = &parameter.values else { continue };
+                let least = range.minimum.map(|least| least - 1.0).or(range.exclusive_minimum);
+                for value in [least, range.maximum.map(|most| most + 1.0)].into_iter().flatten() {
+                    let whole = matches!(parameter.values, Values::Integer { .. });
+                    #[expect(clippy::cast_possible_truncation, reason = "whole numbers of 32 bits")]
+                    let written = if whole { json!(value as i64) } else { json!(value) };
+                    let method = json!({"name": entry.name, parameter.name: written});
+                    let Ok(method) = serde_json::from_value::<MethodSpec>(method) else { continue };
+                    let refused = method.method().check_ranges().unwrap_err();
+                    assert_eq!((refused.parameter, refused.value), (parameter.name, value), "{}", entry.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_entry_is_written_as_data() {
+        let entries = serde_json::to_value(catalogue()).unwrap();
+        let model = entries.as_array().unwrap().iter().find(|entry| entry["name"] == "model").unwrap();
+        assert_eq!(model["scope"], "whole_run");
+        assert_eq!(model["needs"], json!({"effects": "smooth", "reset": false, "simulator": "optional"}));
+        let tries = model["parameters"].as_array().unwrap().iter().find(|p| p["name"] == "max_tries").unwrap();
+        assert_eq!(tries["default"], 15);
+        assert_eq!(tries["values"], json!({"type": "integer", "range": {"minimum": 1.0, "maximum": 10000.0}}));
+    }
+}

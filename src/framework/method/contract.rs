@@ -1,0 +1,153 @@
+//! The contract between a method and the framework: what it is, what it needs, how its parameters are checked.
+
+use super::parameters::Parameters;
+use super::range::OutOfRange;
+use crate::world::WorldProperties;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// How far a method plans.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Scope {
+    /// One search per goal, goal after goal.
+    PerGoal,
+    /// All goals at once: every trial counts for each goal it is near.
+    WholeRun,
+    /// It stands for the method that suits the problem.
+    Chosen,
+}
+
+/// How features must follow from what the robot does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Effects {
+    /// In any way.
+    Any,
+    /// They follow the pose without jumps.
+    Smooth,
+    /// They accumulate over a surface.
+    Accumulating,
+}
+
+/// How a method uses the description of robot and world.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SimulatorUse {
+    /// Not at all: joints in, features out.
+    Never,
+    /// As a first guess, if a parameter says so.
+    Optional,
+    /// As a first guess, right or wrong: it cannot work without one.
+    Required,
+}
+
+/// What a method needs of a problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+pub struct Needs {
+    /// How features must follow from what the robot does.
+    pub effects: Effects,
+    /// Whether the world must be put back between trials.
+    pub reset: bool,
+    /// How the description of robot and world is used.
+    pub simulator: SimulatorUse,
+}
+
+/// What a method is and needs, whatever its parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+pub struct Profile {
+    /// How far it plans.
+    pub scope: Scope,
+    /// Whether it is made for a real robot, where every evaluation takes time.
+    pub few_evaluations: bool,
+    /// Whether it begins with what earlier runs on the same robot taught.
+    pub learns_from_earlier_runs: bool,
+    /// What it needs of a problem.
+    pub needs: Needs,
+}
+
+/// What may be known of robot and sensors before the first trial; `None` leaves a method as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Knowledge {
+    /// Whether the description of robot and world may be used as a simulator.
+    pub simulator: Option<bool>,
+    /// Standard deviation of one observed feature, features' unit.
+    pub noise: Option<f64>,
+}
+
+/// The parameters of a method; implemented beside its algorithm.
+pub trait Method: Parameters {
+    /// What the method is and needs.
+    fn profile(&self) -> Profile;
+
+    /// Whether every parameter is in its range, alone and together with the world.
+    ///
+    /// # Errors
+    /// The first number that is not.
+    fn check(&self, world: &WorldProperties) -> Result<(), OutOfRange> {
+        let _ = world;
+        self.check_ranges()
+    }
+
+    /// Whether the method can work in `world`.
+    ///
+    /// # Errors
+    /// What it needs instead.
+    fn fits(&self, world: &WorldProperties) -> Result<(), &'static str> {
+        self.profile().needs.met_by(world)
+    }
+
+    /// Takes what is known of robot and sensors, if the method can use it.
+    fn assume(&mut self, known: &Knowledge) {
+        let _ = known;
+    }
+
+    /// Whether a candidate that was never executed may be a goal's result.
+    fn unexecuted_may_win(&self) -> bool {
+        false
+    }
+
+    /// Whether a limit of evaluations per goal can be kept.
+    fn keeps_goal_limits(&self) -> bool {
+        self.profile().scope != Scope::WholeRun
+    }
+
+    /// Largest step of a joint from one trial to the next, degrees (of 180 per stroke for prismatic joints); `None` if
+    /// any step will do.
+    fn max_step_deg(&self) -> Option<f64> {
+        None
+    }
+}
+
+impl Needs {
+    /// # Errors
+    /// What is missing.
+    fn met_by(self, world: &WorldProperties) -> Result<(), &'static str> {
+        match self.effects {
+            Effects::Smooth if !world.smooth => {
+                Err("features that follow the pose without jumps; for a surface take particle or search")
+            }
+            Effects::Accumulating if world.surface.is_none() => Err("a coverage world; take model here"),
+            _ if self.reset && !world.resets() => {
+                Err("a surface that is put back between trials: take particle or search if it cannot be")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Profile {
+    /// A search per goal, in any world that can be put back.
+    pub(super) const PER_GOAL: Self = Self {
+        scope: Scope::PerGoal,
+        few_evaluations: false,
+        learns_from_earlier_runs: false,
+        needs: Needs { effects: Effects::Any, reset: true, simulator: SimulatorUse::Never },
+    };
+
+    /// A plan for all goals, of few evaluations.
+    pub(super) const fn whole_run(effects: Effects, simulator: SimulatorUse) -> Self {
+        let needs = Needs { effects, reset: false, simulator };
+        Self { scope: Scope::WholeRun, few_evaluations: true, learns_from_earlier_runs: false, needs }
+    }
+}
