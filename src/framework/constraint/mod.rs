@@ -3,15 +3,15 @@
 //! # Architecture Invariants
 //! - A constraint only measures; it changes nothing and knows no optimiser. Its violation is 0 exactly if it is
 //!   satisfied.
-//! - All strategies work with every optimiser through one judge ([`Constrained`]) between proposal and execution.
+//! - All strategies work with every optimiser through one judge ([`Judge`]) between proposal and execution.
 //! - Every search for a feasible candidate is bounded; a goal without one ends with a typed reason instead of hanging.
 
-mod constrained;
 mod error;
 #[cfg(test)]
 mod fixtures;
 mod geometry;
 mod hull;
+mod judge;
 mod penalty;
 mod plane;
 mod point;
@@ -21,11 +21,11 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-pub use constrained::{Constrained, Rules};
 pub use error::ConstraintError;
+pub use judge::{Judge, Rules};
 pub use set::{Constraints, Proposal};
 pub use spec::{
     ChainJoint, ConstraintSpec, GeometrySpec, HalfSpace, HandlingSpec, JointStepSpec, OnInfeasible, PenaltyForm,
     PenaltyKind, PenaltySpec, PointSpec, PopulationVelocitySpec, RegionSpec, Side,
 };
-pub use state::ConstrainedState;
+pub use state::JudgeState;

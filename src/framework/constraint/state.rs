@@ -1,55 +1,42 @@
 //! State of the judge of one goal; saved and resumed as it is.
 
 use super::penalty::PenaltyState;
-use crate::method::per_goal::{Incumbent, OptimizerError, OptimizerState, SearchSpace, Tally};
+use crate::method::per_goal::{Incumbent, OptimizerError, SearchSpace, Tally};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
 
-/// Version of [`ConstrainedState`]; incremented when its meaning changes.
+/// Version of [`JudgeState`]; incremented when its meaning changes.
 pub(super) const STATE_VERSION: u32 = 1;
 
 /// A candidate handed out and not reported back yet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Waiting {
+pub(super) struct Judged {
     pub id: u64,
     pub joints: Vec<f64>,
     /// One violation per constraint; empty if the candidate is feasible.
     pub violations: Vec<f64>,
 }
 
-/// Complete state of an optimiser under constraints.
+/// Complete state of the judge of a goal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ConstrainedState {
+pub struct JudgeState {
     pub(super) version: u32,
-    pub(super) inner: OptimizerState,
     pub(super) rng: RandomStream,
     pub(super) penalty: PenaltyState,
     pub(super) generation: u64,
     /// Number of consecutive rejections.
     pub(super) attempts: u32,
-    pub(super) waiting: Vec<Waiting>,
+    pub(super) waiting: Vec<Judged>,
     pub(super) known: Option<Incumbent>,
     /// The smallest violations of an infeasible candidate, one per constraint.
     pub(super) nearest: Option<Vec<f64>>,
     pub(super) tally: Tally,
 }
 
-impl ConstrainedState {
-    /// State of the constrained optimiser.
-    #[must_use]
-    pub fn inner(&self) -> &OptimizerState {
-        &self.inner
-    }
-
-    /// Name of the constrained method.
-    #[must_use]
-    pub fn method(&self) -> &'static str {
-        self.inner.method()
-    }
-
+impl JudgeState {
     pub(super) fn check(&self, space: &SearchSpace) -> Result<(), OptimizerError> {
-        let method = self.method();
+        let method = "judge";
         if self.version != STATE_VERSION {
             return Err(OptimizerError::Version { method, found: self.version, expected: STATE_VERSION });
         }

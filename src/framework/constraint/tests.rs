@@ -5,11 +5,12 @@ use super::fixtures;
 use super::*;
 use crate::execution::{Iet, Observations, Problem, ProblemError, RunResult, run, simulate};
 use crate::method::MethodSpec;
-use crate::method::per_goal::{Batch, Optimizer, Outcome, Provenance, SearchSpace, start};
+use crate::method::per_goal::{Batch, Outcome, Provenance, SearchSpace};
 use crate::preset::shipped;
 use crate::robot::Chain;
 use crate::world;
 use proptest::prelude::*;
+use serde_json::{Value, json};
 
 /// Regions that hold the first wax goals and cut the reachable space in different ways.
 fn geometries() -> [ConstraintSpec; 7] {
@@ -59,19 +60,13 @@ fn soft() -> [HandlingSpec; 4] {
 
 fn problem(method: &str, constraint: ConstraintSpec, handling: HandlingSpec) -> Problem {
     let mut problem = shipped("wax").unwrap().problem;
-    let mut chosen = MethodSpec::by_name(method).unwrap();
-    match &mut chosen {
-        MethodSpec::Sst(spec) => spec.population = 12,
-        MethodSpec::Pso(spec) => spec.swarm.population = 12,
-        MethodSpec::FiPso(spec) => spec.swarm.population = 12,
-        MethodSpec::AffgPso(spec) => spec.swarm.population = 12,
-        MethodSpec::CmaEs(spec) => spec.restarts = 1,
-        MethodSpec::Auto(_)
-        | MethodSpec::Broyden(_)
-        | MethodSpec::Model(_)
-        | MethodSpec::Particle(_)
-        | MethodSpec::Search(_) => {}
-    }
+    let mut parameters = match method {
+        "sst" => json!({"population": 12}),
+        "cma_es" => json!({"restarts": 1}),
+        _ => json!({"swarm": {"population": 12}}),
+    };
+    parameters["name"] = json!(method);
+    let chosen: MethodSpec = serde_json::from_value(parameters).unwrap();
     problem.execution.method = chosen;
     problem.execution.constraints = vec![constraint];
     problem.execution.handling = handling;
@@ -203,28 +198,28 @@ fn children_of_a_velocity_limit_stay_near_an_ancestor() {
                 target: None,
                 near: None,
             };
-            let inner = start(&problem.execution.method, space.clone(), 5, 0).unwrap();
+            let mut optimizer = problem.execution.method.start(space.clone(), 5, 0).unwrap();
             let rules = Rules {
                 constraints: std::sync::Arc::new(constraints.clone()),
                 handling: handling.clone(),
                 on_infeasible: OnInfeasible::Stop,
                 previous: None,
             };
-            let mut judged: Box<dyn Optimizer> = Box::new(Constrained::new(inner, rules, space, 5, 0));
+            let mut judge = Judge::new(rules, space, 5, 0);
             let mut batch = Batch::new(3, 1);
             let mut bred = 0;
-            while judged.stop().is_none() && bred < 200 {
+            while judge.stop(optimizer.as_ref()).is_none() && bred < 200 {
                 batch.clear(1);
-                judged.ask(&mut batch);
+                judge.ask(optimizer.as_mut(), &mut batch);
                 let Some((id, joints)) = batch.iter().next() else { break };
-                let origins = judged.origins(id);
+                let origins = optimizer.origins(id);
                 bred += u32::from(origins[0].is_some());
                 let proposal = Proposal { joints, origins, previous: None };
                 assert!(constraints.is_feasible(&proposal), "{method} {handling:?}");
                 let fitness: f64 = joints.iter().map(|q| (q - 0.4).powi(2)).sum();
                 let provenance = Provenance::Simulated;
                 let seen = [fitness];
-                judged.tell(id, Outcome::Observed { fitness, observation: &seen, provenance });
+                judge.tell(optimizer.as_mut(), id, Outcome::Observed { fitness, observation: &seen, provenance });
             }
             assert!(bred >= 5, "{method} {handling:?}: {bred}");
         }
@@ -266,4 +261,23 @@ fn unexecuted_winners_and_constraints_exclude_each_other() {
     preset.problem.execution.constraints = geometries()[..1].to_vec();
     let error = Iet::new(&preset.problem, 1).err().unwrap().to_string();
     assert!(error.contains("unexecuted_may_win"), "{error}");
+}
+
+/// Builds before the judge stood alone saved it around the optimiser.
+#[test]
+fn a_run_saved_with_its_optimizer_inside_the_judge_goes_on_with_the_same_bits() {
+    for handling in [hard()[0].clone(), hard()[1].clone(), soft()[2].clone()] {
+        let problem = problem("sst", geometries()[0].clone(), handling);
+        let whole = run(&problem, 3).unwrap();
+        let mut iet = Iet::new(&problem, 3).unwrap();
+        let mut world = world::build(&problem.world, iet.chain()).unwrap();
+        simulate(&mut iet, world.as_mut(), 40).unwrap();
+        let mut saved = serde_json::to_value(iet.state()).unwrap();
+        let mut enclosing = saved.as_object_mut().unwrap().remove("judge").unwrap();
+        enclosing["inner"] = std::mem::replace(&mut saved["optimizer"], Value::Null);
+        saved["optimizer"] = json!({"constrained": enclosing});
+        let mut iet = Iet::resume(&problem, serde_json::from_value(saved).unwrap()).unwrap();
+        simulate(&mut iet, world.as_mut(), u64::MAX).unwrap();
+        assert_eq!(iet.finish().unwrap(), whole);
+    }
 }

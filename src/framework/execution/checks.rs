@@ -6,6 +6,7 @@ use crate::constraint::{ConstraintError, HandlingSpec, Rules};
 use crate::generalization::Goals;
 use crate::method::per_goal::OptimizerError;
 use crate::method::whole_run::Trial;
+use crate::method::{MethodKind, MethodSpec};
 use crate::world::WorldProperties;
 
 /// Largest goal, features' unit: as large as a demonstration may be.
@@ -19,17 +20,11 @@ fn first_outside(ranges: impl IntoIterator<Item = Range>) -> Result<(), ProblemE
     wrong.map_or(Ok(()), |(field, value, _, expected)| Err(ProblemError::Value { field, value, expected }))
 }
 
-/// Whether the method's parameters make sense, and whether it can work in the world and within the limits asked for.
-pub(super) fn check_method(spec: &ExecutionSpec, world: &WorldProperties) -> Result<(), ProblemError> {
-    let method = spec.method.name();
-    spec.method.check(world).map_err(|number| OptimizerError::Parameter { method, number })?;
-    spec.method.fits(world).map_err(|expected| ProblemError::Method { method, expected })?;
-    if spec.max_evaluations_per_goal.is_some() && !spec.method.keeps_goal_limits() {
-        let expected = "no max_evaluations_per_goal, for it plans all goals together: leave it out, or limit max_tries or \
-                        max_evaluations of the method";
-        return Err(ProblemError::Method { method, expected });
-    }
-    Ok(())
+/// Whether the method's parameters make sense, and whether it can work in the world.
+pub(super) fn check_method(spec: &MethodSpec, world: &WorldProperties) -> Result<(), ProblemError> {
+    let method = spec.name();
+    spec.check(world).map_err(|number| OptimizerError::Parameter { method, number })?;
+    spec.fits(world).map_err(|expected| ProblemError::Method { method, expected })
 }
 
 /// Whether every goal is a number that distances can be computed of.
@@ -56,7 +51,7 @@ pub(super) fn check_earlier(earlier: &[Trial], genes: usize, features: usize) ->
 }
 
 /// Whether limits, strategies and method fit together.
-pub(super) fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
+pub(super) fn check_spec(spec: &ExecutionSpec, name: &'static str, method: &MethodKind) -> Result<(), ProblemError> {
     let not_negative = |field, value: f64| {
         if value.is_finite() && value >= 0.0 {
             return Ok(());
@@ -67,12 +62,21 @@ pub(super) fn check_spec(spec: &ExecutionSpec) -> Result<(), ProblemError> {
     not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
     not_negative("rounding_noise", spec.rounding_noise)?;
     Rules::check(&spec.handling, spec.on_infeasible)?;
-    if spec.method.plans_whole_run() && !matches!(spec.handling, HandlingSpec::Rejecting { .. }) {
-        let expected = "handling \"rejecting\": it proposes no infeasible pose that another strategy could judge";
-        return Err(ProblemError::Method { method: spec.method.name(), expected });
-    }
-    if spec.method.unexecuted_may_win() && !spec.constraints.is_empty() {
-        return Err(ConstraintError::UnexecutedWinner.into());
+    let needs = |expected| Err(ProblemError::Method { method: name, expected });
+    match method {
+        MethodKind::PerGoal(method) if method.unexecuted_may_win() && !spec.constraints.is_empty() => {
+            return Err(ConstraintError::UnexecutedWinner.into());
+        }
+        MethodKind::WholeRun(_) if !matches!(spec.handling, HandlingSpec::Rejecting { .. }) => {
+            return needs("handling \"rejecting\": it proposes no infeasible pose that another strategy could judge");
+        }
+        MethodKind::WholeRun(method) if spec.max_evaluations_per_goal.is_some() && !method.keeps_goal_limits() => {
+            return needs(
+                "no max_evaluations_per_goal, for it plans all goals together: leave it out, or limit max_tries or \
+                 max_evaluations of the method",
+            );
+        }
+        _ => {}
     }
     if spec.max_evaluations_per_goal == Some(0) {
         let expected = "give at least 1";

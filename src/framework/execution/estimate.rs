@@ -35,7 +35,7 @@ impl Preview {
     pub fn new(problem: &Problem, seed: u64, mut go_on: impl FnMut() -> bool) -> Result<Self, ProblemError> {
         let mut iet = Iet::new(problem, seed)?;
         let mut world = iet.world()?;
-        let slice = if iet.owns_the_run() { 1 } else { SLICE };
+        let slice = if iet.plans_whole_run() { 1 } else { SLICE };
         let mut progress = iet.progress();
         while !progress.finished && progress.evaluations < MOST_EVALUATIONS && go_on() {
             progress = simulate(&mut iet, world.as_mut(), slice)?;

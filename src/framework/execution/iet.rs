@@ -6,20 +6,21 @@
 //!
 //! # Invariants
 //! - Result bits depend on problem and seed only: not on batch sizes, saves and resumes, or threads.
-//! - `optimizer` is present exactly while a goal is being searched by a method of one goal; a method that owns the
-//!   whole run stands in `owner`, names one pose at a time, and its results appear together at the end.
+//! - A method that plans the whole run names one pose at a time, and its results appear together at the end.
 
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
+use super::goal_search::GoalSearch;
 use super::observations::{Observations, Seen};
-use super::owner::Owner;
 use super::result::{GoalResult, Progress, RunResult, TracePoint, digest, record};
 use super::setup::Setup;
 use super::spec::Problem;
 use super::state::{GoalState, IetState, STATE_VERSION};
+use super::whole_run_driver::WholeRunDriver;
 use crate::constraint::Proposal;
-use crate::method::per_goal::{Batch, Best, Optimizer, Outcome, Provenance, StopReason, Tally};
-use crate::method::whole_run::{Proposal as Next, Trial};
+use crate::method::MethodKind;
+use crate::method::per_goal::{Batch, Best, Outcome, PerGoalMethod, Provenance, StopReason, Tally};
+use crate::method::whole_run::{NextTrial, Trial};
 use crate::robot::Chain;
 use crate::world::{self, World};
 
@@ -48,12 +49,20 @@ impl From<Best<'_>> for Hit {
     }
 }
 
+/// How the joints are found.
+enum Search {
+    /// One search per goal; `goal` is `None` exactly when the run is finished.
+    PerGoal { method: Box<dyn PerGoalMethod>, goal: Option<GoalSearch> },
+    /// All goals at once.
+    WholeRun(WholeRunDriver),
+}
+
 /// One run of a problem.
 pub struct Iet {
     setup: Setup,
     seed: u64,
     discrepancy: PartialDiscrepancy,
-    optimizer: Option<Box<dyn Optimizer>>,
+    search: Search,
     goal: GoalState,
     /// As [`RunResult::painted_percent`], of the goal that ended last.
     painted: Option<f64>,
@@ -61,22 +70,30 @@ pub struct Iet {
     evaluations: u64,
     /// The m features of the goals, picked out of an observation.
     seen: Vec<f64>,
-    /// The method that owns the run, where one does; `optimizer` is absent then.
-    owner: Option<Owner>,
 }
 
 impl Iet {
-    /// A fresh run.
+    /// A fresh run by the problem's own method.
     ///
     /// # Errors
     /// [`ProblemError`] if robot, world, goals and method do not fit together.
     pub fn new(problem: &Problem, seed: u64) -> Result<Self, ProblemError> {
-        let mut iet = Self::bare(Setup::new(problem)?, seed);
-        iet.owner = Owner::start(&iet.setup, seed, &[])?;
-        if iet.owner.is_none() {
-            iet.start_goal()?;
-        }
-        Ok(iet)
+        let (setup, method) = Setup::of(problem)?;
+        Self::begin(setup, method, seed)
+    }
+
+    /// A fresh run by a method of the caller's own, in place of the one the problem names; the documentation of
+    /// [`method`](crate::method) shows one.
+    ///
+    /// # Errors
+    /// As [`Iet::new`].
+    pub fn with_method(
+        problem: &Problem,
+        seed: u64,
+        name: &'static str,
+        method: MethodKind,
+    ) -> Result<Self, ProblemError> {
+        Self::begin(Setup::new(problem, name, &method)?, method, seed)
     }
 
     /// Goes on from a saved run of the same problem.
@@ -84,11 +101,49 @@ impl Iet {
     /// # Errors
     /// [`ProblemError`] if the state does not belong to the problem.
     pub fn resume(problem: &Problem, state: IetState) -> Result<Self, ProblemError> {
-        let setup = Setup::new(problem)?;
-        let owner = Owner::start(&setup, state.seed, &state.log)?;
-        state.check(owner.is_some(), setup.goals.len(), setup.chain.len(), setup.goals.features().len())?;
-        let mut iet = Self::bare(setup, state.seed);
-        iet.owner = owner;
+        let (setup, method) = Setup::of(problem)?;
+        Self::go_on(setup, method, state)
+    }
+
+    /// Goes on from a saved run that [`Iet::with_method`] began with the same method.
+    ///
+    /// # Errors
+    /// As [`Iet::resume`].
+    pub fn resume_with_method(
+        problem: &Problem,
+        state: IetState,
+        name: &'static str,
+        method: MethodKind,
+    ) -> Result<Self, ProblemError> {
+        Self::go_on(Setup::new(problem, name, &method)?, method, state)
+    }
+
+    fn begin(setup: Setup, method: MethodKind, seed: u64) -> Result<Self, ProblemError> {
+        let search = match method {
+            MethodKind::PerGoal(method) => {
+                Search::PerGoal { goal: Some(setup.start(method.as_ref(), seed, &[])?), method }
+            }
+            MethodKind::WholeRun(method) => {
+                Search::WholeRun(WholeRunDriver::start(&setup, method.as_ref(), seed, &[])?)
+            }
+        };
+        Ok(Self::bare(setup, search, seed))
+    }
+
+    fn go_on(setup: Setup, method: MethodKind, state: IetState) -> Result<Self, ProblemError> {
+        let state = state.upgraded()?;
+        let is_whole_run = matches!(method, MethodKind::WholeRun(_));
+        state.check(is_whole_run, setup.goals.len(), setup.chain.len(), setup.goals.features().len())?;
+        let search = match method {
+            MethodKind::PerGoal(method) => {
+                let resume = |saved| setup.resume(method.as_ref(), &state.results, saved, state.judge.clone());
+                Search::PerGoal { goal: state.optimizer.clone().map(resume).transpose()?, method }
+            }
+            MethodKind::WholeRun(method) => {
+                Search::WholeRun(WholeRunDriver::start(&setup, method.as_ref(), state.seed, &state.log)?)
+            }
+        };
+        let mut iet = Self::bare(setup, search, state.seed);
         for result in &state.results {
             iet.discrepancy.append(&result.observation);
         }
@@ -96,30 +151,33 @@ impl Iet {
         iet.evaluations = state.evaluations;
         iet.goal = state.goal;
         iet.painted = state.painted;
-        if let Some(saved) = state.optimizer {
-            iet.optimizer = Some(iet.setup.resume(&iet.results, saved)?);
-        }
         Ok(iet)
     }
 
-    fn bare(setup: Setup, seed: u64) -> Self {
+    fn bare(setup: Setup, search: Search, seed: u64) -> Self {
         Self {
             discrepancy: PartialDiscrepancy::new(&setup.goals, setup.spec.metric),
             seed,
-            optimizer: None,
+            search,
             goal: GoalState::default(),
             painted: None,
             results: Vec::with_capacity(setup.goals.len()),
             evaluations: 0,
             seen: vec![0.0; setup.goals.features().len()],
-            owner: None,
             setup,
         }
+    }
+
+    /// The driver of a method that plans the whole run.
+    fn driver(&self) -> Option<&WholeRunDriver> {
+        if let Search::WholeRun(driver) = &self.search { Some(driver) } else { None }
     }
 
     /// Everything needed to go on with the same bits.
     #[must_use]
     pub fn state(&self) -> IetState {
+        let searching = if let Search::PerGoal { goal: Some(search), .. } = &self.search { Some(search) } else { None };
+        let (optimizer, judge) = searching.map(GoalSearch::state).unzip();
         IetState {
             version: STATE_VERSION,
             seed: self.seed,
@@ -127,7 +185,8 @@ impl Iet {
             evaluations: self.evaluations,
             goal: self.goal.clone(),
             painted: self.painted,
-            optimizer: self.optimizer.as_ref().map(|o| o.state()),
+            optimizer,
+            judge: judge.flatten(),
             log: self.log().to_vec(),
         }
     }
@@ -138,10 +197,10 @@ impl Iet {
         &self.setup.chain
     }
 
-    /// Whether the method owns the run: it names one pose at a time and may think long about each.
+    /// Whether the method plans the whole run: it names one pose at a time and may think long about each.
     #[must_use]
-    pub fn owns_the_run(&self) -> bool {
-        self.owner.is_some()
+    pub fn plans_whole_run(&self) -> bool {
+        self.driver().is_some()
     }
 
     /// The seed of this run.
@@ -159,18 +218,18 @@ impl Iet {
         Ok(world::simulated(&self.setup.world, reality, &self.setup.chain, self.seed)?)
     }
 
-    /// U_1..U_j-1, or the accepted poses of a method that owns the run: what must be executed, in order, before each
+    /// U_1..U_j-1, or the accepted poses of a method that plans the whole run: what must be executed, in order, before each
     /// candidate.
     pub fn prefix(&self) -> impl Iterator<Item = &[f64]> {
-        let owned = self.owner.iter().flat_map(Owner::prefix);
-        let results = if self.owner.is_some() { &[] } else { self.results.as_slice() };
-        owned.chain(results.iter().map(|r| r.joints.as_slice()))
+        let accepted = self.driver().into_iter().flat_map(WholeRunDriver::prefix);
+        let results = if self.plans_whole_run() { &[] } else { self.results.as_slice() };
+        accepted.chain(results.iter().map(|r| r.joints.as_slice()))
     }
 
-    /// Every trial so far of a method that owns the run: what a later run on the same robot may begin with.
+    /// Every trial so far of a method that plans the whole run: what a later run on the same robot may begin with.
     #[must_use]
     pub fn log(&self) -> &[Trial] {
-        self.owner.as_ref().map_or(&[], Owner::log)
+        self.driver().map_or(&[], WholeRunDriver::log)
     }
 
     /// Whether every goal has ended.
@@ -185,7 +244,7 @@ impl Iet {
         if self.is_finished() {
             return self.results.len();
         }
-        self.owner.as_ref().map_or(self.results.len(), Owner::goal)
+        self.driver().map_or(self.results.len(), WholeRunDriver::goal)
     }
 
     /// Number of features of the world: values an observation holds.
@@ -200,22 +259,25 @@ impl Iet {
     /// of an unfinished run means that the goal has ended without execution: tell no observations, then bring the world
     /// to the grown [`Iet::prefix`] and ask again.
     pub fn ask(&mut self, batch: &mut Batch) {
-        if let Some(owner) = &self.owner {
-            if let (Next::Execute { joints, .. }, false) = (&owner.next, batch.is_full()) {
-                batch.push(self.evaluations, joints);
+        match &mut self.search {
+            Search::WholeRun(driver) => {
+                if let (NextTrial::Execute { joints, .. }, false) = (&driver.next, batch.is_full()) {
+                    batch.push(self.evaluations, joints);
+                }
             }
-            return;
-        }
-        let Some(optimizer) = &mut self.optimizer else { return };
-        if self.goal.ended.is_none() {
-            optimizer.ask(batch);
-        }
-        if batch.is_empty()
-            && self.goal.ended.or(optimizer.stop()).is_some()
-            && let Some(best) = optimizer.best()
-            && !best.provenance.is_executed()
-        {
-            batch.push(CONFIRMATION, best.joints);
+            Search::PerGoal { goal: None, .. } => {}
+            Search::PerGoal { goal: Some(search), .. } => {
+                if self.goal.ended.is_none() {
+                    search.ask(batch);
+                }
+                if batch.is_empty()
+                    && self.goal.ended.or(search.stop()).is_some()
+                    && let Some(best) = search.best()
+                    && !best.provenance.is_executed()
+                {
+                    batch.push(CONFIRMATION, best.joints);
+                }
+            }
         }
     }
 
@@ -226,8 +288,8 @@ impl Iet {
     /// [`ProblemError::NothingExecuted`] if the goal ended without any executed candidate, [`ProblemError::Infeasible`]
     /// if none satisfied the constraints.
     pub fn tell(&mut self, observations: &Observations) -> Result<(), ProblemError> {
-        if self.owner.is_some() {
-            return self.tell_owner(observations);
+        if self.plans_whole_run() {
+            return self.tell_driver(observations);
         }
         let goal_index = self.results.len();
         for (id, joints, seen) in observations.iter() {
@@ -251,18 +313,18 @@ impl Iet {
         }
     }
 
-    /// As [`Iet::tell`], for a method that owns the run: a lost observation costs an evaluation too.
-    fn tell_owner(&mut self, observations: &Observations) -> Result<(), ProblemError> {
-        let Some(owner) = &mut self.owner else { return Ok(()) };
+    /// As [`Iet::tell`], for a method that plans the whole run: a lost observation costs an evaluation too.
+    fn tell_driver(&mut self, observations: &Observations) -> Result<(), ProblemError> {
+        let Search::WholeRun(driver) = &mut self.search else { return Ok(()) };
         if let Some((_, joints, seen)) =
             observations.iter().find(|trial| trial.0 == self.evaluations && trial.2 != Seen::Unknown)
         {
-            owner.tell(&self.setup, joints, seen.features());
+            driver.tell(&self.setup, joints, seen.features());
             self.evaluations += 1;
         }
-        if owner.next == Next::Finished && self.results.is_empty() {
-            self.results = owner.results(&self.setup, &mut self.discrepancy, observations.provenance())?;
-            self.painted = self.setup.painted.map(|_| owner.kept().unwrap_or(0.0));
+        if driver.next == NextTrial::Finished && self.results.is_empty() {
+            self.results = driver.results(&self.setup, &mut self.discrepancy, observations.provenance())?;
+            self.painted = self.setup.painted.map(|_| driver.kept().unwrap_or(0.0));
         }
         Ok(())
     }
@@ -285,10 +347,10 @@ impl Iet {
         }
         if let Some(observation) = seen.features() {
             self.see(observation);
-            let Some(optimizer) = &mut self.optimizer else { return Ok(()) };
+            let Search::PerGoal { goal: Some(search), .. } = &mut self.search else { return Ok(()) };
             let noise = self.setup.noise(self.seed, goal_index, id);
             let fitness = self.discrepancy.of(&self.seen) + noise;
-            let feasible = optimizer.is_feasible(id);
+            let feasible = search.is_feasible(id);
             if feasible && self.goal.best.is_none_or(|best| fitness < best) {
                 self.goal.best = Some(fitness);
                 let point = TracePoint { evaluations: self.goal.evaluations, discrepancy: fitness };
@@ -299,7 +361,7 @@ impl Iet {
             {
                 self.goal.painted = Some(percent);
             }
-            optimizer.tell(id, Outcome::Observed { fitness, observation: &self.seen, provenance });
+            search.tell(id, Outcome::Observed { fitness, observation: &self.seen, provenance });
             let distance = || -> f64 {
                 let goal = self.setup.goals.row(goal_index);
                 self.seen.iter().zip(goal).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
@@ -309,22 +371,22 @@ impl Iet {
                 let winner = Hit { fitness, joints: joints.to_vec(), observation, provenance, confirmed: None };
                 return self.finish_goal(StopReason::Tolerance, winner);
             }
-        } else if let Some(optimizer) = &mut self.optimizer {
-            optimizer.tell(id, Outcome::Failed);
+        } else if let Search::PerGoal { goal: Some(search), .. } = &mut self.search {
+            search.tell(id, Outcome::Failed);
         }
         self.end_goal_if_over()
     }
 
     /// Ends the goal if its search is over; a winner that was never executed is waited for.
     fn end_goal_if_over(&mut self) -> Result<(), ProblemError> {
-        let Some(optimizer) = &self.optimizer else { return Ok(()) };
+        let Search::PerGoal { goal: Some(search), .. } = &self.search else { return Ok(()) };
         let trials = self.goal.evaluations + self.goal.failures;
         let used_up = self.setup.spec.max_evaluations_per_goal.is_some_and(|most| trials >= most);
-        let reason = optimizer.stop().or(used_up.then_some(StopReason::MaxEvaluations));
+        let reason = search.stop().or(used_up.then_some(StopReason::MaxEvaluations));
         let Some(reason) = self.goal.ended.or(reason) else { return Ok(()) };
-        let Some(best) = optimizer.best() else {
+        let Some(best) = search.best() else {
             let goal = self.results.len();
-            let nearest = optimizer.nearest_violations().map(<[f64]>::to_vec);
+            let nearest = search.nearest_violations().map(<[f64]>::to_vec);
             return Err(nearest.map_or(ProblemError::NothingExecuted { goal, trials }, |nearest| {
                 ProblemError::Infeasible { goal, nearest, evaluations: self.evaluations }
             }));
@@ -347,8 +409,8 @@ impl Iet {
         if let Some(observation) = seen.features() {
             self.see(observation);
         }
-        let Some(optimizer) = &self.optimizer else { return Ok(()) };
-        let (Some(best), Some(reason)) = (optimizer.best(), self.goal.ended.or(optimizer.stop())) else {
+        let Search::PerGoal { goal: Some(search), .. } = &self.search else { return Ok(()) };
+        let (Some(best), Some(reason)) = (search.best(), self.goal.ended.or(search.stop())) else {
             return Ok(());
         };
         let mut winner = Hit::from(best);
@@ -361,7 +423,10 @@ impl Iet {
 
     fn finish_goal(&mut self, stop_reason: StopReason, winner: Hit) -> Result<(), ProblemError> {
         let state = std::mem::take(&mut self.goal);
-        let tally = self.optimizer.take().map_or_else(Tally::default, |optimizer| optimizer.tally());
+        let tally = match &mut self.search {
+            Search::PerGoal { goal, .. } => goal.take().map_or_else(Tally::default, |search| search.tally()),
+            Search::WholeRun(_) => Tally::default(),
+        };
         self.painted = self.setup.painted.map(|_| state.painted.unwrap_or(0.0));
         self.discrepancy.append(&winner.observation);
         let previous = self.results.last().map(|result| result.joints.as_slice());
@@ -386,7 +451,9 @@ impl Iet {
     }
 
     fn start_goal(&mut self) -> Result<(), ProblemError> {
-        self.optimizer = Some(self.setup.start(self.seed, &self.results)?);
+        if let Search::PerGoal { method, goal } = &mut self.search {
+            *goal = Some(self.setup.start(method.as_ref(), self.seed, &self.results)?);
+        }
         Ok(())
     }
 

@@ -8,11 +8,11 @@ mod choice_tests;
 mod discrepancy;
 mod error;
 mod estimate;
+mod goal_search;
 mod iet;
 #[cfg(test)]
 mod model_tests;
 mod observations;
-mod owner;
 #[cfg(test)]
 mod real_tests;
 mod result;
@@ -24,6 +24,7 @@ mod state;
 mod tests;
 #[cfg(test)]
 mod unknown_tests;
+mod whole_run_driver;
 
 pub use crate::method::Chosen;
 pub use discrepancy::PartialDiscrepancy;

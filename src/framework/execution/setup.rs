@@ -2,11 +2,13 @@
 
 use super::checks::{check_earlier, check_goals, check_method, check_spec};
 use super::error::ProblemError;
+use super::goal_search::GoalSearch;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
-use crate::constraint::{Constrained, Constraints, Rules};
+use crate::constraint::{Constraints, Judge, JudgeState, Rules};
 use crate::generalization::Goals;
-use crate::method::per_goal::{self, Optimizer, OptimizerState, SearchSpace};
+use crate::method::MethodKind;
+use crate::method::per_goal::{OptimizerState, PerGoalMethod, SearchSpace};
 use crate::method::whole_run::Trial;
 use crate::robot::{Chain, RobotModel};
 use crate::world::{self, WorldSpec};
@@ -30,20 +32,36 @@ pub(super) struct Setup {
 }
 
 impl Setup {
-    pub(super) fn new(problem: &Problem) -> Result<Self, ProblemError> {
-        let mut spec = problem.execution.clone();
-        if let Some((method, _)) = spec.stands_for(&problem.world) {
-            spec.method = method;
-        }
-        check_spec(&spec)?;
-        check_method(&spec, &problem.world.properties())?;
+    /// The problem with its own method, which is chosen if it is `auto`.
+    pub(super) fn of(problem: &Problem) -> Result<(Self, MethodKind), ProblemError> {
+        let spec = &problem.execution;
+        let chosen = spec.stands_for(&problem.world).map(|(method, _)| method);
+        let method = chosen.as_ref().unwrap_or(&spec.method);
+        check_method(method, &problem.world.properties())?;
+        let Some(kind) = method.kind() else {
+            let expected = "to be replaced by the method it stands for";
+            return Err(ProblemError::Method { method: method.name(), expected });
+        };
+        Ok((Self::new(problem, method.name(), &kind)?, kind))
+    }
+
+    /// The problem with `method`, whatever method the problem names.
+    pub(super) fn new(problem: &Problem, name: &'static str, method: &MethodKind) -> Result<Self, ProblemError> {
+        let spec = problem.execution.clone();
+        check_spec(&spec, name, method)?;
         check_goals(&problem.goals)?;
         let model = RobotModel::from_urdf(&problem.urdf)?;
         let chain = Chain::new(&model, &problem.robot)?;
         let constraints = Constraints::new(&spec.constraints, &model, &problem.robot, &chain)?;
-        if spec.method.plans_whole_run() && constraints.needs_a_population() {
-            let expected = "constraints without population_velocity, for it breeds no population: take joint_step";
-            return Err(ProblemError::Method { method: spec.method.name(), expected });
+        let needs = |expected| Err(ProblemError::Method { method: name, expected });
+        match method {
+            MethodKind::PerGoal(_) if !problem.world.properties().resets() => {
+                return needs("a surface that is put back between trials: take particle or search if it cannot be");
+            }
+            MethodKind::WholeRun(_) if constraints.needs_a_population() => {
+                return needs("constraints without population_velocity, for it breeds no population: take joint_step");
+            }
+            _ => {}
         }
         world::build(&problem.world, &chain)?;
         let shown = world::features(&problem.world)?;
@@ -61,6 +79,9 @@ impl Setup {
                 });
             }
             select.push(index);
+        }
+        if problem.world.properties().surface.is_some() && matches!(method, MethodKind::WholeRun(_)) && select != [0] {
+            return needs("goals of the one feature \"painted\"");
         }
         check_earlier(&problem.earlier, chain.len(), select.len())?;
         Ok(Self {
@@ -83,30 +104,37 @@ impl Setup {
         Some(values[1..].chunks(64).map(bits).collect())
     }
 
-    /// A fresh search for the goal after `results`.
-    pub(super) fn start(&self, seed: u64, results: &[GoalResult]) -> Result<Box<dyn Optimizer>, ProblemError> {
-        let stream = results.len() as u64;
-        let inner = per_goal::start(&self.spec.method, self.space(results), seed, stream)?;
-        Ok(match self.rules(results) {
-            Some(rules) => Box::new(Constrained::new(inner, rules, self.space(results), seed, stream)),
-            None => inner,
-        })
+    /// A fresh search by `method` for the goal after `results`.
+    pub(super) fn start(
+        &self,
+        method: &dyn PerGoalMethod,
+        seed: u64,
+        results: &[GoalResult],
+    ) -> Result<GoalSearch, ProblemError> {
+        let goal = results.len() as u64;
+        let optimizer = method.start(self.space(results), seed, goal)?;
+        let judge = self.rules(results).map(|rules| Judge::new(rules, self.space(results), seed, goal));
+        Ok(GoalSearch::new(optimizer, judge))
     }
 
-    /// Goes on with a saved search for the goal after `results`.
+    /// Goes on with a saved search by `method` for the goal after `results`.
     pub(super) fn resume(
         &self,
+        method: &dyn PerGoalMethod,
         results: &[GoalResult],
         state: OptimizerState,
-    ) -> Result<Box<dyn Optimizer>, ProblemError> {
-        let resume = |state| per_goal::resume(&self.spec.method, self.space(results), state);
-        Ok(match (self.rules(results), state) {
-            (Some(rules), OptimizerState::Constrained(state)) => {
-                let inner = resume(state.inner().clone())?;
-                Box::new(Constrained::resume(inner, rules, self.space(results), *state)?)
+        judge: Option<JudgeState>,
+    ) -> Result<GoalSearch, ProblemError> {
+        let optimizer = method.resume(self.space(results), state)?;
+        let judge = match (self.rules(results), judge) {
+            (Some(rules), Some(judge)) => Some(Judge::resume(rules, self.space(results), judge)?),
+            (None, None) => None,
+            (rules, judge) => {
+                let (found, expected) = (usize::from(judge.is_some()), usize::from(rules.is_some()));
+                return Err(ProblemError::Shape { what: "judges", found, expected });
             }
-            (_, state) => resume(state)?,
-        })
+        };
+        Ok(GoalSearch::new(optimizer, judge))
     }
 
     /// How the goal after `results` is constrained, if it is.

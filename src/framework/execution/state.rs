@@ -2,9 +2,11 @@
 
 use super::error::ProblemError;
 use super::result::{GoalResult, TracePoint};
-use crate::method::per_goal::{OptimizerState, StopReason};
+use crate::constraint::JudgeState;
+use crate::method::per_goal::{OptimizerError, OptimizerState, StopReason};
 use crate::method::whole_run::Trial;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
 /// Version of [`IetState`]; incremented when its meaning changes.
 pub(super) const STATE_VERSION: u32 = 1;
@@ -20,7 +22,10 @@ pub struct IetState {
     pub(super) goal: GoalState,
     pub(super) painted: Option<f64>,
     pub(super) optimizer: Option<OptimizerState>,
-    /// Trials of a whole-run method.
+    /// The judge beside it, if there are constraints.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) judge: Option<JudgeState>,
+    /// The trials of a method that plans the whole run.
     #[serde(default)]
     pub(super) log: Vec<Trial>,
 }
@@ -52,8 +57,31 @@ impl IetState {
         self.evaluations
     }
 
-    /// Checks that this state can belong to a problem with n goals and the given numbers of genes and features.
-    pub(super) fn check(&self, owned: bool, goals: usize, genes: usize, features: usize) -> Result<(), ProblemError> {
+    /// The state with the judge beside the optimiser: builds before the judge stood alone saved it around the optimiser.
+    ///
+    /// # Errors
+    /// [`OptimizerError::Memory`] if that state cannot be read.
+    pub(super) fn upgraded(self) -> Result<Self, OptimizerError> {
+        const ENCLOSING: &str = "constrained";
+        let Some(state) = self.optimizer.clone().filter(|state| state.method() == ENCLOSING) else { return Ok(self) };
+        let unreadable = |source| OptimizerError::Memory { method: ENCLOSING, source };
+        let mut judge: Map<String, Value> = state.read(ENCLOSING)?;
+        let inner = judge.remove("inner").unwrap_or_default();
+        Ok(Self {
+            optimizer: Some(serde_json::from_value(inner).map_err(unreadable)?),
+            judge: Some(serde_json::from_value(judge.into()).map_err(unreadable)?),
+            ..self
+        })
+    }
+
+    /// Whether this state can be one of a problem with n goals, that many genes and m features.
+    pub(super) fn check(
+        &self,
+        is_whole_run: bool,
+        goals: usize,
+        genes: usize,
+        features: usize,
+    ) -> Result<(), ProblemError> {
         if self.version != STATE_VERSION {
             return Err(ProblemError::Version { found: self.version, expected: STATE_VERSION });
         }
@@ -62,7 +90,7 @@ impl IetState {
             return shape("finished goals", self.results.len(), goals);
         }
         let searching = usize::from(self.optimizer.is_some());
-        if !owned && searching != usize::from(self.results.len() < goals) {
+        if !is_whole_run && searching != usize::from(self.results.len() < goals) {
             return shape("goals being searched", searching, 1 - searching);
         }
         for trial in &self.log {

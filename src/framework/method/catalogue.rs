@@ -7,9 +7,10 @@
 //! - Nothing outside of this file matches on every method; what a method is or does is asked of the method.
 
 use super::auto::AutoSpec;
-use super::contract::{Knowledge, Method, Profile, Scope};
+use super::contract::{Knowledge, Method, MethodKind, Profile, Scope};
 use super::parameters::{Parameter, Parameters, sentence};
 use super::per_goal::{AffgPsoSpec, CmaEsSpec, FiPsoSpec, PsoSpec, SstSpec};
+use super::per_goal::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, SearchSpace};
 use super::range::OutOfRange;
 use super::whole_run::{BroydenSpec, CoverSpec, ModelSpec, ParticleSpec};
 use crate::world::WorldProperties;
@@ -168,22 +169,33 @@ impl MethodSpec {
         self.method_mut().assume(known);
     }
 
-    /// Whether a candidate that was never executed may be a goal's result.
+    /// The method at work with these parameters; `None` for `auto`, which stands for another.
     #[must_use]
-    pub fn unexecuted_may_win(&self) -> bool {
-        self.method().unexecuted_may_win()
+    pub fn kind(&self) -> Option<MethodKind> {
+        self.method().kind()
     }
 
-    /// Whether a limit of evaluations per goal can be kept.
-    #[must_use]
-    pub fn keeps_goal_limits(&self) -> bool {
-        self.method().keeps_goal_limits()
+    /// A fresh search for one goal; `goal` separates the goals of one seed.
+    ///
+    /// # Errors
+    /// [`OptimizerError`] for a parameter out of its range or a method that does not search goal after goal.
+    pub fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        self.per_goal()?.start(space, seed, goal)
     }
 
-    /// Largest step of a joint from one trial to the next, degrees; `None` if any step will do.
-    #[must_use]
-    pub fn max_step_deg(&self) -> Option<f64> {
-        self.method().max_step_deg()
+    /// Goes on with a saved search for one goal.
+    ///
+    /// # Errors
+    /// As [`MethodSpec::start`], and if the state does not fit the method and the space.
+    pub fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        self.per_goal()?.resume(space, state)
+    }
+
+    fn per_goal(&self) -> Result<Box<dyn PerGoalMethod>, OptimizerError> {
+        match self.kind() {
+            Some(MethodKind::PerGoal(method)) => Ok(method),
+            _ => Err(OptimizerError::NotPerGoal { method: self.name() }),
+        }
     }
 }
 

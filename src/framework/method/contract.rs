@@ -1,7 +1,9 @@
 //! The contract between a method and the framework: what it is, what it needs, how its parameters are checked.
 
 use super::parameters::Parameters;
+use super::per_goal::PerGoalMethod;
 use super::range::OutOfRange;
+use super::whole_run::WholeRunMethod;
 use crate::world::WorldProperties;
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -75,6 +77,14 @@ pub struct Knowledge {
     pub noise: Option<f64>,
 }
 
+/// A method that can be run, by how far it plans.
+pub enum MethodKind {
+    /// One search per goal, goal after goal.
+    PerGoal(Box<dyn PerGoalMethod>),
+    /// All goals at once.
+    WholeRun(Box<dyn WholeRunMethod>),
+}
+
 /// The parameters of a method; implemented beside its algorithm.
 pub trait Method: Parameters {
     /// What the method is and needs.
@@ -102,21 +112,8 @@ pub trait Method: Parameters {
         let _ = known;
     }
 
-    /// Whether a candidate that was never executed may be a goal's result.
-    fn unexecuted_may_win(&self) -> bool {
-        false
-    }
-
-    /// Whether a limit of evaluations per goal can be kept.
-    fn keeps_goal_limits(&self) -> bool {
-        self.profile().scope != Scope::WholeRun
-    }
-
-    /// Largest step of a joint from one trial to the next, degrees (of 180 per stroke for prismatic joints); `None` if
-    /// any step will do.
-    fn max_step_deg(&self) -> Option<f64> {
-        None
-    }
+    /// The method at work with these parameters; `None` if it stands for another.
+    fn kind(&self) -> Option<MethodKind>;
 }
 
 impl Needs {

@@ -9,8 +9,8 @@
 //! IEEE Swarm Intelligence Symposium 2005, 116-123 (flight formula in objective space).
 
 use super::swarm::{Estimator, Flight, Swarm, SwarmSpec, SwarmState};
-use super::{Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
-use crate::method::contract::{Method, Profile};
+use super::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, Provenance, SearchSpace};
+use crate::method::contract::{Method, MethodKind, Profile};
 use crate::method::parameters::parameters;
 use crate::random::RandomStream;
 
@@ -30,8 +30,9 @@ impl Method for FiPsoSpec {
     fn profile(&self) -> Profile {
         Profile::PER_GOAL
     }
-    fn unexecuted_may_win(&self) -> bool {
-        self.unexecuted_may_win
+
+    fn kind(&self) -> Option<MethodKind> {
+        Some(MethodKind::PerGoal(Box::new(self.clone())))
     }
 }
 
@@ -62,7 +63,7 @@ impl Estimator for Inheritance {
     }
     fn executed(&mut self, _: &[f64], _: f64) {}
     fn save(&self, swarm: SwarmState) -> OptimizerState {
-        OptimizerState::FiPso(swarm)
+        OptimizerState::of("fi_pso", &swarm)
     }
 }
 
@@ -77,29 +78,18 @@ fn estimator(spec: &FiPsoSpec) -> Result<Inheritance, OptimizerError> {
     Ok(Inheritance { probability: spec.inheritance_probability, may_win: spec.unexecuted_may_win })
 }
 
-/// A fresh search.
-///
-/// # Errors
-/// [`OptimizerError::Parameter`] for a parameter out of its range.
-pub(super) fn start(
-    spec: &FiPsoSpec,
-    space: SearchSpace,
-    seed: u64,
-    stream: u64,
-) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    Ok(Box::new(Swarm::new(&spec.swarm, estimator(spec)?, space, seed, stream)?))
-}
+impl PerGoalMethod for FiPsoSpec {
+    fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(Swarm::new(&self.swarm, estimator(self)?, space, seed, goal)?))
+    }
 
-/// Goes on from a saved state.
-///
-/// # Errors
-/// [`OptimizerError`] if the state's version or shape does not fit.
-pub(super) fn resume(
-    spec: &FiPsoSpec,
-    space: SearchSpace,
-    state: SwarmState,
-) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    Ok(Box::new(Swarm::resume(&spec.swarm, estimator(spec)?, space, state)?))
+    fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(Swarm::resume(&self.swarm, estimator(self)?, space, state.read("fi_pso")?)?))
+    }
+
+    fn unexecuted_may_win(&self) -> bool {
+        self.unexecuted_may_win
+    }
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@
 //! options of [`SwarmSpec`](super::SwarmSpec). Movement and sources: the swarm's `movement` module.
 
 use super::swarm::{Estimator, Flight, Swarm, SwarmSpec, SwarmState};
-use super::{Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
-use crate::method::contract::{Method, Profile};
+use super::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, Provenance, SearchSpace};
+use crate::method::contract::{Method, MethodKind, Profile};
 use crate::method::parameters::parameters;
 use crate::random::RandomStream;
 
@@ -21,6 +21,10 @@ parameters! {
 impl Method for PsoSpec {
     fn profile(&self) -> Profile {
         Profile::PER_GOAL
+    }
+
+    fn kind(&self) -> Option<MethodKind> {
+        Some(MethodKind::PerGoal(Box::new(self.clone())))
     }
 }
 
@@ -44,31 +48,16 @@ impl Estimator for Execute {
     }
     fn executed(&mut self, _: &[f64], _: f64) {}
     fn save(&self, swarm: SwarmState) -> OptimizerState {
-        OptimizerState::Pso(swarm)
+        OptimizerState::of("pso", &swarm)
     }
 }
 
-/// A fresh search.
-///
-/// # Errors
-/// [`OptimizerError::Parameter`] for a parameter out of its range.
-pub(super) fn start(
-    spec: &PsoSpec,
-    space: SearchSpace,
-    seed: u64,
-    stream: u64,
-) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    Ok(Box::new(Swarm::new(&spec.swarm, Execute, space, seed, stream)?))
-}
+impl PerGoalMethod for PsoSpec {
+    fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(Swarm::new(&self.swarm, Execute, space, seed, goal)?))
+    }
 
-/// Goes on from a saved state.
-///
-/// # Errors
-/// [`OptimizerError`] if the state's version or shape does not fit.
-pub(super) fn resume(
-    spec: &PsoSpec,
-    space: SearchSpace,
-    state: SwarmState,
-) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    Ok(Box::new(Swarm::resume(&spec.swarm, Execute, space, state)?))
+    fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(Swarm::resume(&self.swarm, Execute, space, state.read("pso")?)?))
+    }
 }

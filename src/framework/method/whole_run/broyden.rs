@@ -18,11 +18,13 @@
 //! DOI 10.1090/S0025-5718-1965-0198670-6.
 
 use super::distance::distance;
+use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::refine::{Local, refine};
 use super::space::Space;
-use super::{Outcome, Proposal, Trial, WholeRun};
-use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
+use super::steps::Targets;
+use crate::method::contract::{Effects, Method, MethodKind, Profile, SimulatorUse};
 use crate::method::parameters::parameters;
+use crate::world::WorldError;
 use nalgebra::{DMatrix, DVector};
 
 /// Steps in a row that come no nearer before the Jacobian is made anew.
@@ -56,8 +58,8 @@ impl Method for BroydenSpec {
     fn profile(&self) -> Profile {
         Profile { few_evaluations: false, ..Profile::whole_run(Effects::Smooth, SimulatorUse::Never) }
     }
-    fn max_step_deg(&self) -> Option<f64> {
-        self.max_step_deg
+    fn kind(&self) -> Option<MethodKind> {
+        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }
 
@@ -81,7 +83,7 @@ pub struct Broyden {
     radius: f64,
     /// Observations lost in a row.
     lost: usize,
-    next: Proposal,
+    next: NextTrial,
 }
 
 impl Broyden {
@@ -91,7 +93,7 @@ impl Broyden {
         let (m, d) = (goals.first().map_or(0, Vec::len), space.len());
         Self {
             radius: spec.longest_step_deg.to_radians(),
-            next: Proposal::Execute { joints: space.home(), goal: 0 },
+            next: NextTrial::Execute { joints: space.home(), goal: 0 },
             spec,
             tolerance,
             space,
@@ -166,18 +168,20 @@ impl Broyden {
     }
 
     /// The next proposal, moving on over goals that are done.
-    fn plan(&mut self) -> Proposal {
+    fn plan(&mut self) -> NextTrial {
         let patience = FAILURES as usize * (self.space.len() + 1);
         if self.lost >= patience {
-            return Proposal::Finished;
+            return NextTrial::Finished;
         }
         while self.goal < self.goals.len() {
-            let Some(base) = self.base else { return Proposal::Execute { joints: self.space.home(), goal: self.goal } };
+            let Some(base) = self.base else {
+                return NextTrial::Execute { joints: self.space.home(), goal: self.goal };
+            };
             let (_, best) = self.nearest(self.goal);
             if let (Some(&joint), true) = (self.moves.last(), best > self.tolerance || self.restarts == 0) {
                 let step = self.spec.identification_deg.to_radians();
                 let joints = self.space.moved(&self.log[base].joints, joint, step);
-                return Proposal::Execute { joints, goal: self.goal };
+                return NextTrial::Execute { joints, goal: self.goal };
             }
             if best <= self.tolerance || self.tries >= self.spec.max_tries {
                 self.leave_goal();
@@ -197,11 +201,11 @@ impl Broyden {
             }
             let need = (0.25 * self.tolerance).max(0.02 * best);
             if let Some(joints) = self.step(base, best - need) {
-                return Proposal::Execute { joints, goal: self.goal };
+                return NextTrial::Execute { joints, goal: self.goal };
             }
             self.leave_goal();
         }
-        Proposal::Finished
+        NextTrial::Finished
     }
 
     /// The best step from trial `base` by the linear model, if it promises a distance of at most `enough`.
@@ -236,8 +240,19 @@ impl Broyden {
     }
 }
 
+impl WholeRunMethod for BroydenSpec {
+    fn start(&self, run: &RunSetup<'_>) -> Result<Box<dyn WholeRun>, WorldError> {
+        let Targets { goals, tolerance } = run.targets.clone();
+        Ok(Box::new(Broyden::new(self.clone(), tolerance, run.space.clone(), goals)))
+    }
+
+    fn max_step_deg(&self) -> Option<f64> {
+        self.max_step_deg
+    }
+}
+
 impl WholeRun for Broyden {
-    fn ask(&mut self) -> Proposal {
+    fn ask(&mut self) -> NextTrial {
         self.next.clone()
     }
 
@@ -264,10 +279,10 @@ impl WholeRun for Broyden {
         &self.log
     }
 
-    fn outcomes(&mut self) -> Vec<Outcome> {
+    fn outcomes(&mut self) -> Vec<GoalOutcome> {
         let outcome = |goal| {
             let (trial, miss) = self.nearest(goal);
-            Outcome { trial, distance: miss, reached: miss <= self.tolerance }
+            GoalOutcome { trial, distance: miss, reached: miss <= self.tolerance }
         };
         (0..self.goals.len()).map(outcome).collect()
     }
@@ -289,7 +304,7 @@ mod tests {
     }
 
     fn finish(run: &mut Broyden, world: impl Fn(&[f64]) -> Option<Vec<f64>>) {
-        while let Proposal::Execute { joints, goal } = run.ask() {
+        while let NextTrial::Execute { joints, goal } = run.ask() {
             assert!(run.log.len() < 400, "it goes on for ever");
             run.tell(Trial { observation: world(&joints), cells: None, joints, goal });
         }
@@ -345,7 +360,7 @@ mod tests {
         ) {
             let fresh = || Broyden::new(BroydenSpec::default(), 0.05, space(2), goals.clone());
             let mut run = fresh();
-            while let Proposal::Execute { joints, goal } = run.ask() {
+            while let NextTrial::Execute { joints, goal } = run.ask() {
                 prop_assert!(joints.iter().all(|q| (-1.0..=1.5).contains(q)));
                 let mut resumed = fresh();
                 run.log().iter().for_each(|t| resumed.tell(t.clone()));

@@ -13,6 +13,7 @@ mod broyden;
 mod distance;
 mod model;
 mod particle;
+mod planner;
 mod refine;
 mod search;
 mod space;
@@ -22,84 +23,8 @@ mod surface;
 pub use broyden::{Broyden, BroydenSpec};
 pub use model::{ModelIet, ModelSpec, Prior};
 pub use particle::{ParticleIet, ParticleSpec, Simulator};
+pub use planner::{FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 pub use search::SearchIet;
 pub use space::{Allows, Axis, Space};
 pub use steps::{StepLimits, Stepped, Targets};
 pub use surface::{CoverSpec, Grid};
-
-use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
-
-/// A map from joints to features: a simulated world, right or wrong, as a prior mean.
-pub trait FeatureMap: Send {
-    /// Writes the m features expected at `joints` (rad or m).
-    fn predict(&mut self, joints: &[f64], features: &mut [f64]);
-}
-
-impl<F: FnMut(&[f64], &mut [f64]) + Send> FeatureMap for F {
-    fn predict(&mut self, joints: &[f64], features: &mut [f64]) {
-        self(joints, features);
-    }
-}
-
-/// One executed pose and what was seen.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Trial {
-    /// Joints as commanded, rad or m.
-    pub joints: Vec<f64>,
-    /// The m features seen; none when the observation was lost.
-    pub observation: Option<Vec<f64>>,
-    /// The cells seen affected after it, 64 a word, row-major, lowest bit first; none where cells are not seen.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cells: Option<Vec<u64>>,
-    /// The goal the pose was tried for.
-    pub goal: usize,
-}
-
-/// What a method wants next.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Proposal {
-    /// Execute this pose.
-    Execute {
-        /// Joints, rad or m.
-        joints: Vec<f64>,
-        /// The goal it is meant for.
-        goal: usize,
-    },
-    /// No pose is expected to improve any goal.
-    Finished,
-}
-
-/// The result for one goal.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// Index of the trial whose pose serves the goal best; none when nothing was observed.
-    pub trial: Option<usize>,
-    /// Its distance from the goal, features' unit (with noise: of the model's mean there).
-    pub distance: f64,
-    /// Whether the goal is reached; otherwise `distance` is the best residual.
-    pub reached: bool,
-}
-
-/// A method that owns a whole run. Its state is its configuration and its log: tell a fresh one the log to resume.
-pub trait WholeRun: Send {
-    /// The next pose, a function of configuration, seed and log alone.
-    fn ask(&mut self) -> Proposal;
-
-    /// Appends a trial and learns from it.
-    fn tell(&mut self, trial: Trial);
-
-    /// The trials so far.
-    fn log(&self) -> &[Trial];
-
-    /// Indices of the trials whose effect stays: what is executed before the next trial where a world was put back.
-    fn accepted(&self) -> &[usize] {
-        &[]
-    }
-
-    /// The best own trial of each goal.
-    fn outcomes(&mut self) -> Vec<Outcome>;
-
-    /// Whether the goal ended because its trials were used up, with hope left.
-    fn is_used_up(&self, goal: usize) -> bool;
-}

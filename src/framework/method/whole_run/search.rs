@@ -17,12 +17,13 @@
 //!
 //! Source: L. Stone, Theory of Optimal Search, Academic Press 1975.
 
+use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::{Axis, Space};
 use super::surface::cell_predictor::{CellPredictor, Grid};
 use super::surface::cover::{CoverSpec, Ledger};
 use super::surface::sobol;
-use super::{Outcome, Proposal, Trial, WholeRun};
 use crate::random::RandomStream;
+use crate::world::{Surface, WorldError};
 
 const RADIUS_DEG: f64 = 9.0;
 const LENGTH_DEG: f64 = 20.0;
@@ -131,10 +132,23 @@ impl SearchIet {
     }
 }
 
+impl WholeRunMethod for CoverSpec {
+    fn start(&self, run: &RunSetup<'_>) -> Result<Box<dyn WholeRun>, WorldError> {
+        let world = run.world.properties();
+        let grid = |surface: Surface| Grid { columns: surface.columns, rows: surface.rows };
+        let seen = world.surface.filter(|surface| surface.cells_seen).map(grid);
+        Ok(Box::new(SearchIet::new(self.clone(), world.resets(), seen, run.space, &run.targets.goals, run.seed)))
+    }
+
+    fn max_step_deg(&self) -> Option<f64> {
+        self.max_step_deg
+    }
+}
+
 impl WholeRun for SearchIet {
-    fn ask(&mut self) -> Proposal {
+    fn ask(&mut self) -> NextTrial {
         if self.ledger.is_over() {
-            return Proposal::Finished;
+            return NextTrial::Finished;
         }
         let mut expected: Vec<f64> = (0..self.poses.len()).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
         let chances = self.predictor.as_ref().and_then(|s| s.chances(&self.poses, |a, b| self.squared(a, b)));
@@ -152,7 +166,7 @@ impl WholeRun for SearchIet {
                 best = (sum / weight, Some(z));
             }
         }
-        best.1.map_or(Proposal::Finished, |z| self.ledger.propose(self.poses[z].clone()))
+        best.1.map_or(NextTrial::Finished, |z| self.ledger.propose(self.poses[z].clone()))
     }
 
     fn tell(&mut self, trial: Trial) {
@@ -193,7 +207,7 @@ impl WholeRun for SearchIet {
         &self.ledger.accepted
     }
 
-    fn outcomes(&mut self) -> Vec<Outcome> {
+    fn outcomes(&mut self) -> Vec<GoalOutcome> {
         self.ledger.outcomes()
     }
 

@@ -9,7 +9,7 @@
 //! sum of squared distances from the goals that respects this limit (dynamic programming over goals and trials).
 
 use super::space::Space;
-use super::{Outcome, Proposal, Trial, WholeRun};
+use super::{GoalOutcome, NextTrial, Trial, WholeRun};
 use crate::random::RandomStream;
 
 /// Number of poses tried around a blocked one, per spread.
@@ -116,8 +116,8 @@ impl Stepped {
         a.iter().zip(b).zip(&self.space.axes).map(|((x, y), axis)| ((x - y) * axis.scale()).powi(2)).sum()
     }
 
-    /// Measured poses, one per goal, that are within `limit` of one another and closest to the goals.
-    fn linked(&self, limit: f64) -> Option<Vec<Outcome>> {
+    /// The measured poses, one a goal, that lie within `limit` of one another and nearest to the goals.
+    fn linked(&self, limit: f64) -> Option<Vec<GoalOutcome>> {
         let log = self.inner.log();
         let observed: Vec<(usize, &Trial, &[f64])> =
             log.iter().enumerate().filter_map(|(i, t)| Some((i, t, t.observation.as_deref()?))).collect();
@@ -148,7 +148,7 @@ impl Stepped {
         let mut outcomes = Vec::with_capacity(chosen.len());
         for (goal, before) in self.targets.goals.iter().zip(&chosen).rev() {
             let distance = miss(goal, observed[at].2).sqrt();
-            outcomes.push(Outcome {
+            outcomes.push(GoalOutcome {
                 trial: Some(observed[at].0),
                 distance,
                 reached: distance <= self.targets.tolerance,
@@ -159,7 +159,7 @@ impl Stepped {
         Some(outcomes)
     }
 
-    fn is_linked(&self, outcomes: &[Outcome], limit: f64) -> bool {
+    fn is_linked(&self, outcomes: &[GoalOutcome], limit: f64) -> bool {
         let poses = outcomes.iter().filter_map(|o| Some(self.inner.log()[o.trial?].joints.as_slice()));
         let poses: Vec<&[f64]> = self.limits.start.as_deref().into_iter().chain(poses).collect();
         poses.windows(2).all(|w| w[0].iter().zip(w[1]).all(|(a, b)| (a - b).abs() <= limit))
@@ -167,12 +167,12 @@ impl Stepped {
 }
 
 impl WholeRun for Stepped {
-    fn ask(&mut self) -> Proposal {
-        let Proposal::Execute { joints, goal } = self.inner.ask() else { return Proposal::Finished };
+    fn ask(&mut self) -> NextTrial {
+        let NextTrial::Execute { joints, goal } = self.inner.ask() else { return NextTrial::Finished };
         if self.may(self.before(), &joints) {
-            return Proposal::Execute { joints, goal };
+            return NextTrial::Execute { joints, goal };
         }
-        self.nearest(&joints).map_or(Proposal::Finished, |joints| Proposal::Execute { joints, goal })
+        self.nearest(&joints).map_or(NextTrial::Finished, |joints| NextTrial::Execute { joints, goal })
     }
 
     fn tell(&mut self, trial: Trial) {
@@ -191,7 +191,7 @@ impl WholeRun for Stepped {
         self.inner.is_used_up(goal)
     }
 
-    fn outcomes(&mut self) -> Vec<Outcome> {
+    fn outcomes(&mut self) -> Vec<GoalOutcome> {
         let outcomes = self.inner.outcomes();
         match self.limits.per_goal {
             Some(limit) if self.inner.accepted().is_empty() && !self.is_linked(&outcomes, limit) => {

@@ -15,7 +15,7 @@ mod spec;
 pub use spec::AffgPsoSpec;
 
 use super::swarm::{Estimator, Flight, Swarm, SwarmState};
-use super::{Optimizer, OptimizerError, OptimizerState, Provenance, SearchSpace};
+use super::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, Provenance, SearchSpace};
 use crate::random::RandomStream;
 use granules::Granules;
 use serde::{Deserialize, Serialize};
@@ -60,7 +60,7 @@ impl Estimator for Granulation {
         self.granules.add(&self.spec, x, fitness);
     }
     fn save(&self, swarm: SwarmState) -> OptimizerState {
-        OptimizerState::AffgPso(AffgState { swarm, granules: self.granules.clone(), threshold: self.threshold })
+        OptimizerState::of("affg_pso", &AffgState { swarm, granules: self.granules.clone(), threshold: self.threshold })
     }
 }
 
@@ -73,37 +73,27 @@ fn threshold(alpha: f64, fitness: &[f64]) -> f64 {
     alpha * (finite().sum::<f64>() / finite().count() as f64) / least
 }
 
-/// A fresh search.
-///
-/// # Errors
-/// [`OptimizerError::Parameter`] for a parameter out of its range.
-pub(super) fn start(
-    spec: &AffgPsoSpec,
-    space: SearchSpace,
-    seed: u64,
-    stream: u64,
-) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    OptimizerError::check("affg_pso", spec)?;
-    let granulation = Granulation { spec: spec.clone(), granules: Granules::default(), threshold: UNREACHABLE };
-    Ok(Box::new(Swarm::new(&spec.swarm, granulation, space, seed, stream)?))
-}
-
-/// Goes on from a saved state.
-///
-/// # Errors
-/// [`OptimizerError`] if the state's version or shape does not fit.
-pub(super) fn resume(
-    spec: &AffgPsoSpec,
-    space: SearchSpace,
-    state: AffgState,
-) -> Result<Box<dyn Optimizer>, OptimizerError> {
-    OptimizerError::check("affg_pso", spec)?;
-    if !state.granules.fit(space.lower.len()) {
-        let expected = space.lower.len();
-        return Err(OptimizerError::Shape { method: "affg_pso", what: "granule genes", found: 0, expected });
+impl PerGoalMethod for AffgPsoSpec {
+    fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        OptimizerError::check("affg_pso", self)?;
+        let granulation = Granulation { spec: self.clone(), granules: Granules::default(), threshold: UNREACHABLE };
+        Ok(Box::new(Swarm::new(&self.swarm, granulation, space, seed, goal)?))
     }
-    let granulation = Granulation { spec: spec.clone(), granules: state.granules, threshold: state.threshold };
-    Ok(Box::new(Swarm::resume(&spec.swarm, granulation, space, state.swarm)?))
+
+    fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        OptimizerError::check("affg_pso", self)?;
+        let state: AffgState = state.read("affg_pso")?;
+        if !state.granules.fit(space.lower.len()) {
+            let expected = space.lower.len();
+            return Err(OptimizerError::Shape { method: "affg_pso", what: "granule genes", found: 0, expected });
+        }
+        let granulation = Granulation { spec: self.clone(), granules: state.granules, threshold: state.threshold };
+        Ok(Box::new(Swarm::resume(&self.swarm, granulation, space, state.swarm)?))
+    }
+
+    fn unexecuted_may_win(&self) -> bool {
+        self.unexecuted_may_win
+    }
 }
 
 #[cfg(test)]

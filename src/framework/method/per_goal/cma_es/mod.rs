@@ -26,9 +26,11 @@ mod weights;
 pub use spec::CmaEsSpec;
 pub use state::CmaEsState;
 
+use super::batch::Pending;
 use super::incumbent::Incumbent;
-use super::waiting::Waiting;
-use super::{Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason};
+use super::{
+    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, PerGoalMethod, Provenance, SearchSpace, StopReason,
+};
 use crate::random::RandomStream;
 use distribution::{Axes, Distribution};
 use weights::Weights;
@@ -116,7 +118,7 @@ impl CmaEs {
         for slot in 0..lambda {
             let joints = self.candidate();
             self.state.joints.extend(joints);
-            self.state.waiting.push(Waiting { id: self.state.next_id, slot });
+            self.state.waiting.push(Pending { id: self.state.next_id, slot });
             self.state.next_id += 1;
         }
         self.handed = 0;
@@ -196,13 +198,23 @@ fn scaled(space: &SearchSpace, joints: &[f64]) -> Vec<f64> {
     joints.iter().zip(limits).map(scale).collect()
 }
 
+impl PerGoalMethod for CmaEsSpec {
+    fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(CmaEs::new(self, space, seed, goal)?))
+    }
+
+    fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(CmaEs::resume(self, space, state.read("cma_es")?)?))
+    }
+}
+
 impl Optimizer for CmaEs {
     fn ask(&mut self, batch: &mut Batch) {
         if self.state.stop.is_some() {
             return;
         }
         while !batch.is_full() && self.handed < self.state.waiting.len() {
-            let Waiting { id, slot } = self.state.waiting[self.handed];
+            let Pending { id, slot } = self.state.waiting[self.handed];
             batch.push(id, self.joints(slot));
             self.handed += 1;
         }
@@ -229,7 +241,7 @@ impl Optimizer for CmaEs {
                 let joints = self.candidate();
                 let n = joints.len();
                 self.state.joints[slot * n..(slot + 1) * n].copy_from_slice(&joints);
-                self.state.waiting.insert(self.handed, Waiting { id: self.state.next_id, slot });
+                self.state.waiting.insert(self.handed, Pending { id: self.state.next_id, slot });
                 self.state.next_id += 1;
                 return;
             }
@@ -248,7 +260,7 @@ impl Optimizer for CmaEs {
     }
 
     fn state(&self) -> OptimizerState {
-        OptimizerState::CmaEs(self.state.clone())
+        OptimizerState::of("cma_es", &self.state)
     }
 
     fn generation(&self) -> u64 {

@@ -2,8 +2,8 @@
 
 use super::distribution::Distribution;
 use crate::infinite_as_null;
+use crate::method::per_goal::batch::Pending;
 use crate::method::per_goal::incumbent::Incumbent;
-use crate::method::per_goal::waiting::Waiting;
 use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ pub struct CmaEsState {
     /// Infinite where not told or failed.
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
-    pub(super) waiting: Vec<Waiting>,
+    pub(super) waiting: Vec<Pending>,
     pub(super) next_id: u64,
     pub(super) generation: u64,
     /// The generation in which the present search began, and the one in which it last improved.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::method::MethodSpec;
-use crate::method::per_goal::{BoundsRule, resume, start};
+use crate::method::per_goal::BoundsRule;
 use proptest::prelude::*;
 use rstest::rstest;
 
@@ -45,7 +45,7 @@ struct Found {
 }
 
 fn search(spec: &CmaEsSpec, space: &SearchSpace, seed: u64, size: usize, of: fn(&[f64]) -> f64) -> Found {
-    let mut search = start(&MethodSpec::CmaEs(spec.clone()), space.clone(), seed, 0).unwrap();
+    let mut search = MethodSpec::CmaEs(spec.clone()).start(space.clone(), seed, 0).unwrap();
     let (mut batch, mut seen) = (Batch::new(space.lower.len(), size), Vec::new());
     while search.stop().is_none() {
         batch.clear(size);
@@ -145,7 +145,7 @@ proptest! {
         let (spec, space) = (CmaEsSpec { restarts: 2, ..CmaEsSpec::default() }, space(3, Some(vec![0.5; 3])));
         let method = MethodSpec::CmaEs(spec.clone());
         for of in [sphere, plateau] {
-            let mut search_on = start(&method, space.clone(), seed, 0).unwrap();
+            let mut search_on = method.start(space.clone(), seed, 0).unwrap();
             let mut batch = Batch::new(3, 4);
             for cut in cuts.iter().copied().chain([usize::MAX]) {
                 let mut told = 0;
@@ -159,7 +159,7 @@ proptest! {
                     }
                 }
                 let saved = serde_json::to_string(&search_on.state()).unwrap();
-                search_on = resume(&method, space.clone(), serde_json::from_str(&saved).unwrap()).unwrap();
+                search_on = method.resume(space.clone(), serde_json::from_str(&saved).unwrap()).unwrap();
             }
             let whole = search(&spec, &space, seed, 1, of);
             prop_assert_eq!(search_on.best().unwrap().fitness.to_bits(), whole.fitness.to_bits());

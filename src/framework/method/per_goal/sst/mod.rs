@@ -19,9 +19,11 @@ mod tests;
 pub use spec::SstSpec;
 pub use state::SstState;
 
+use super::batch::Pending;
 use super::incumbent::Incumbent;
-use super::waiting::Waiting;
-use super::{Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason};
+use super::{
+    Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, PerGoalMethod, Provenance, SearchSpace, StopReason,
+};
 use operators::{CROSSOVERS, Parents, mutate};
 use state::STATE_VERSION;
 
@@ -106,7 +108,7 @@ impl Sst {
                 }
             }
         }
-        state.waiting.push(Waiting { id: state.next_id, slot });
+        state.waiting.push(Pending { id: state.next_id, slot });
         state.next_id += 1;
         self.handed = 0;
     }
@@ -168,8 +170,18 @@ impl Sst {
         for (gene, value) in state.joints[own].iter_mut().enumerate() {
             *value = state.rng.between(self.space.lower[gene], self.space.upper[gene]);
         }
-        state.waiting.insert(self.handed, Waiting { id: state.next_id, slot });
+        state.waiting.insert(self.handed, Pending { id: state.next_id, slot });
         state.next_id += 1;
+    }
+}
+
+impl PerGoalMethod for SstSpec {
+    fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(Sst::new(self, space, seed, goal)?))
+    }
+
+    fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
+        Ok(Box::new(Sst::resume(self, space, state.read("sst")?)?))
     }
 }
 
@@ -183,7 +195,7 @@ impl Optimizer for Sst {
         }
         let genes = self.space.lower.len();
         while !batch.is_full() && self.handed < self.state.waiting.len() {
-            let Waiting { id, slot } = self.state.waiting[self.handed];
+            let Pending { id, slot } = self.state.waiting[self.handed];
             batch.push(id, &self.state.joints[slot * genes..(slot + 1) * genes]);
             self.handed += 1;
         }
@@ -236,7 +248,7 @@ impl Optimizer for Sst {
 
     fn state(&self) -> OptimizerState {
         debug_assert_eq!(self.state.version, STATE_VERSION);
-        OptimizerState::Sst(self.state.clone())
+        OptimizerState::of("sst", &self.state)
     }
 
     fn generation(&self) -> u64 {

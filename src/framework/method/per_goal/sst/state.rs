@@ -1,8 +1,8 @@
 //! What a steady-state tournament remembers; saved and resumed as it is.
 
 use crate::infinite_as_null;
+use crate::method::per_goal::batch::Pending;
 use crate::method::per_goal::incumbent::Incumbent;
-use crate::method::per_goal::waiting::Waiting;
 use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub struct SstState {
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
     pub(super) provenance: Vec<Provenance>,
-    pub(super) waiting: Vec<Waiting>,
+    pub(super) waiting: Vec<Pending>,
     /// While a child waits: the n genes it overwrote, then those of its two parents.
     pub(super) family: Vec<f64>,
     pub(super) next_id: u64,
@@ -45,7 +45,7 @@ impl SstState {
             observations: vec![0.0; population * space.features],
             fitness: vec![f64::INFINITY; population],
             provenance: vec![Provenance::Penalised; population],
-            waiting: (0..population).map(|slot| Waiting { id: slot as u64, slot }).collect(),
+            waiting: (0..population).map(|slot| Pending { id: slot as u64, slot }).collect(),
             family: vec![0.0; 3 * space.lower.len()],
             next_id: population as u64,
             generation: 0,

@@ -138,9 +138,8 @@ proptest! {
             told_in_parts += drive(&mut cut, sphere, budget);
             let mut batch = Batch::new(3, 3);
             cut.ask(&mut batch); // asked, lost with the process, asked again
-            let saved = serde_json::from_str(&serde_json::to_string(&cut.state()).unwrap()).unwrap();
-            let OptimizerState::Sst(state) = saved else { panic!("a tournament saves a tournament") };
-            cut = Sst::resume(&spec, space(None), state).unwrap();
+            let saved: OptimizerState = serde_json::from_str(&serde_json::to_string(&cut.state()).unwrap()).unwrap();
+            cut = Sst::resume(&spec, space(None), saved.read("sst").unwrap()).unwrap();
         }
         told_in_parts += drive(&mut cut, sphere, usize::MAX);
         prop_assert_eq!(told, told_in_parts);

@@ -20,8 +20,8 @@ mod tests;
 pub use spec::{Leader, SwarmSpec, VelocityClamp};
 pub use state::SwarmState;
 
+use super::batch::Pending;
 use super::incumbent::Incumbent;
-use super::waiting::Waiting;
 use super::{
     Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason, Tally,
 };
@@ -143,7 +143,7 @@ impl<E: Estimator> Swarm<E> {
             }
             return;
         }
-        state.waiting.insert(self.handed, Waiting { id: state.next_id, slot });
+        state.waiting.insert(self.handed, Pending { id: state.next_id, slot });
         state.next_id += 1;
     }
 
@@ -229,7 +229,7 @@ impl<E: Estimator> Swarm<E> {
                 state.memory[place] = drawn;
             }
         }
-        state.waiting.insert(self.handed, Waiting { id: state.next_id, slot });
+        state.waiting.insert(self.handed, Pending { id: state.next_id, slot });
         state.next_id += 1;
     }
 }
@@ -238,7 +238,7 @@ impl<E: Estimator> Optimizer for Swarm<E> {
     fn ask(&mut self, batch: &mut Batch) {
         let ahead = self.spec.leader == Leader::BestMemory && !self.estimator.depends_on_order();
         while self.state.stop.is_none() && !batch.is_full() {
-            if let Some(&Waiting { id, slot }) = self.state.waiting.get(self.handed) {
+            if let Some(&Pending { id, slot }) = self.state.waiting.get(self.handed) {
                 batch.push(id, &self.state.x[self.row(slot)]);
                 self.handed += 1;
                 continue;

@@ -3,8 +3,8 @@
 use super::movement::limited;
 use super::spec::SwarmSpec;
 use crate::infinite_as_null;
+use crate::method::per_goal::batch::Pending;
 use crate::method::per_goal::incumbent::Incumbent;
-use crate::method::per_goal::waiting::Waiting;
 use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason, Tally};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub struct SwarmState {
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
     pub(super) provenance: Vec<Provenance>,
-    pub(super) waiting: Vec<Waiting>,
+    pub(super) waiting: Vec<Pending>,
     pub(super) next_id: u64,
     /// 0 while the first positions are evaluated.
     pub(super) generation: u64,
@@ -74,7 +74,7 @@ impl SwarmState {
             observations: vec![0.0; population * space.features],
             fitness: vec![f64::INFINITY; population],
             provenance: vec![Provenance::Penalised; population],
-            waiting: (0..population).map(|slot| Waiting { id: slot as u64, slot }).collect(),
+            waiting: (0..population).map(|slot| Pending { id: slot as u64, slot }).collect(),
             next_id: population as u64,
             generation: 0,
             moved: 0,

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::method::MethodSpec;
-use crate::method::per_goal::{PsoSpec, resume, start};
+use crate::method::per_goal::PsoSpec;
 use proptest::prelude::*;
 use rstest::rstest;
 
@@ -29,7 +29,7 @@ fn small(name: &str) -> MethodSpec {
 
 /// Every candidate of a whole search, asked `size` at a time, in the order of their ids.
 fn search(method: &MethodSpec, seed: u64, size: usize) -> (Vec<(u64, Vec<u64>)>, u64, Tally) {
-    let mut swarm = start(method, space(None), seed, 0).unwrap();
+    let mut swarm = method.start(space(None), seed, 0).unwrap();
     let (mut batch, mut seen) = (Batch::new(3, size), Vec::new());
     while swarm.stop().is_none() {
         batch.clear(size);
@@ -60,7 +60,7 @@ proptest! {
     fn interrupted_anywhere_the_search_ends_with_the_same_bits(seed: u64, cuts in prop::collection::vec(1_usize..30, 1..8)) {
         for name in METHODS {
             let method = small(name);
-            let mut swarm = start(&method, space(None), seed, 0).unwrap();
+            let mut swarm = method.start(space(None), seed, 0).unwrap();
             let mut batch = Batch::new(3, 4);
             for cut in cuts.iter().copied().chain([usize::MAX]) {
                 let mut told = 0;
@@ -75,7 +75,7 @@ proptest! {
                     }
                 }
                 let saved = serde_json::to_string(&swarm.state()).unwrap();
-                swarm = resume(&method, space(None), serde_json::from_str(&saved).unwrap()).unwrap();
+                swarm = method.resume(space(None), serde_json::from_str(&saved).unwrap()).unwrap();
             }
             let (_, best, tally) = search(&method, seed, 1);
             prop_assert_eq!((swarm.best().unwrap().fitness.to_bits(), swarm.tally()), (best, tally));
@@ -86,7 +86,7 @@ proptest! {
 #[test]
 fn rejection_proposes_another_in_the_same_place() {
     for name in METHODS {
-        let mut swarm = start(&small(name), space(None), 3, 0).unwrap();
+        let mut swarm = small(name).start(space(None), 3, 0).unwrap();
         let mut batch = Batch::new(3, 1);
         for round in 0..200 {
             batch.clear(1);
@@ -148,7 +148,7 @@ fn parameters_out_of_range_are_named() {
     let spec = |change: fn(&mut SwarmSpec)| {
         let mut swarm = SwarmSpec::default();
         change(&mut swarm);
-        start(&MethodSpec::Pso(PsoSpec { swarm }), space(None), 1, 0).err().unwrap().to_string()
+        MethodSpec::Pso(PsoSpec { swarm }).start(space(None), 1, 0).err().unwrap().to_string()
     };
     assert!(spec(|s| s.population = 1).contains("population is 1"));
     assert!(spec(|s| s.inertia = f64::NAN).contains("inertia"));

@@ -13,6 +13,7 @@ mod columns;
 mod kernel;
 mod process;
 mod shortlist;
+mod simulator;
 mod spec;
 #[cfg(test)]
 pub(super) mod tests;
@@ -20,11 +21,14 @@ pub(super) mod tests;
 pub use spec::{ModelSpec, Prior};
 
 use super::distance::distance;
+use super::planner::{FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::Space;
-use super::{FeatureMap, Outcome, Proposal, Trial, WholeRun};
+use super::steps::Targets;
 use crate::random::RandomStream;
+use crate::world::WorldError;
 use belief::{Aim, Belief};
 use shortlist::{Starts, nearest_by_prior};
+use simulator::SimulatedWorld;
 
 /// How many of the measured poses nearest to a goal are searched around.
 const LOCAL_CENTRES: usize = 3;
@@ -82,20 +86,20 @@ impl ModelIet {
         if nothing_known { self.space.len() + 1 } else { 0 }
     }
 
-    fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> Proposal {
+    fn ask_model(&self, identification: usize, mut prior: Option<&mut dyn FeatureMap>) -> NextTrial {
         let mut random = RandomStream::of_run(self.seed, self.log.len() as u64 + 1);
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         if self.log.iter().chain(&self.earlier).all(|t| t.observation.is_none()) {
             let blind = self.log.len() >= identification + self.spec.max_tries as usize;
             if blind {
-                return Proposal::Finished;
+                return NextTrial::Finished;
             }
             let prior = prior.as_deref_mut();
             let joints = nearest_by_prior(&self.space, &self.goals[0], prior, !self.log.is_empty(), &mut random);
-            return Proposal::Execute { joints, goal: 0 };
+            return NextTrial::Execute { joints, goal: 0 };
         }
         let Some(mut belief) = Belief::fit(&self.space, logs, &self.goals, prior, self.spec.noise) else {
-            return Proposal::Finished;
+            return NextTrial::Finished;
         };
         let open = self.open_goals(identification, &mut belief);
         let mut starts = Starts::new(&self.space, &mut belief, &mut random);
@@ -115,9 +119,9 @@ impl ModelIet {
             }
         }
         if let Some((_, joints, goal)) = chosen {
-            return Proposal::Execute { joints, goal };
+            return NextTrial::Execute { joints, goal };
         }
-        Proposal::Finished
+        NextTrial::Finished
     }
 
     /// What was seen at each own trial, one row of m each: with noise what the model makes of it. None where the
@@ -222,14 +226,36 @@ impl ModelIet {
     }
 }
 
+impl WholeRunMethod for ModelSpec {
+    fn start(&self, run: &RunSetup<'_>) -> Result<Box<dyn WholeRun>, WorldError> {
+        let Targets { goals, tolerance } = run.targets.clone();
+        let most = run.max_evaluations_per_goal.and_then(|most| u32::try_from(most).ok());
+        let spec = Self { max_tries: self.max_tries.min(most.unwrap_or(u32::MAX)), ..self.clone() };
+        let model =
+            ModelIet::new(spec, tolerance, run.space.clone(), goals, run.seed).with_earlier(run.earlier.to_vec());
+        Ok(match self.prior {
+            Prior::None => Box::new(model),
+            Prior::Simulator => Box::new(model.with_prior(Box::new(SimulatedWorld::new(run)?))),
+        })
+    }
+
+    fn keeps_goal_limits(&self) -> bool {
+        true
+    }
+
+    fn max_step_deg(&self) -> Option<f64> {
+        self.max_step_deg
+    }
+}
+
 impl WholeRun for ModelIet {
-    fn ask(&mut self) -> Proposal {
+    fn ask(&mut self) -> NextTrial {
         let identification = self.identification_count();
         if self.log.len() < identification {
             let step = self.spec.identification_deg.to_radians();
             let pose = self.space.identification(self.log.len(), step);
             if let Some(joints) = pose.filter(|p| self.space.allows(p)) {
-                return Proposal::Execute { joints, goal: 0 };
+                return NextTrial::Execute { joints, goal: 0 };
             }
         }
         let mut prior = self.prior.take();
@@ -246,7 +272,7 @@ impl WholeRun for ModelIet {
         &self.log
     }
 
-    fn outcomes(&mut self) -> Vec<Outcome> {
+    fn outcomes(&mut self) -> Vec<GoalOutcome> {
         let mut prior = self.prior.take();
         let logs = [self.earlier.as_slice(), self.log.as_slice()];
         let map = prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap);
@@ -255,12 +281,12 @@ impl WholeRun for ModelIet {
             (0..self.goals.len())
                 .map(|goal| {
                     let (trial, miss) = self.best(goal, &seen);
-                    Outcome { trial, distance: miss, reached: miss <= self.tolerance }
+                    GoalOutcome { trial, distance: miss, reached: miss <= self.tolerance }
                 })
                 .collect()
         });
         self.prior = prior;
-        let nothing = Outcome { trial: None, distance: f64::INFINITY, reached: false };
+        let nothing = GoalOutcome { trial: None, distance: f64::INFINITY, reached: false };
         outcomes.unwrap_or_else(|| vec![nothing; self.goals.len()])
     }
 

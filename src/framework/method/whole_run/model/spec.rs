@@ -1,6 +1,6 @@
 //! Parameters of MODEL-IET.
 
-use crate::method::contract::{Effects, Knowledge, Method, Profile, SimulatorUse};
+use crate::method::contract::{Effects, Knowledge, Method, MethodKind, Profile, SimulatorUse};
 use crate::method::parameters::{Choice, parameters};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -47,10 +47,7 @@ impl Method for ModelSpec {
         self.prior = prior.unwrap_or(self.prior);
         self.noise = known.noise.unwrap_or(self.noise);
     }
-    fn keeps_goal_limits(&self) -> bool {
-        true
-    }
-    fn max_step_deg(&self) -> Option<f64> {
-        self.max_step_deg
+    fn kind(&self) -> Option<MethodKind> {
+        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }

@@ -7,7 +7,7 @@ use super::{ModelIet, ModelSpec};
 use crate::execution::{Iet, IetState, Problem, RunResult, run, simulate};
 use crate::method::MethodSpec;
 use crate::method::whole_run::space::{Axis, Space};
-use crate::method::whole_run::{BroydenSpec, Proposal, Trial, WholeRun};
+use crate::method::whole_run::{BroydenSpec, NextTrial, Trial, WholeRun};
 use crate::preset;
 use nalgebra::DMatrix;
 
@@ -76,11 +76,11 @@ fn asking_is_a_function_of_the_log() {
     let fresh = || ModelIet::new(ModelSpec::default(), 0.01, space.clone(), goals.clone(), 7);
     let world = |q: &[f64]| vec![q[0].cos() + 0.3 * q[1].sin(), q[0].sin() * q[1].cos()];
     let mut whole = fresh();
-    while let Proposal::Execute { joints, goal } = whole.ask() {
-        assert_eq!(whole.ask(), Proposal::Execute { joints: joints.clone(), goal });
+    while let NextTrial::Execute { joints, goal } = whole.ask() {
+        assert_eq!(whole.ask(), NextTrial::Execute { joints: joints.clone(), goal });
         let mut resumed = fresh();
         whole.log().iter().for_each(|t| resumed.tell(t.clone()));
-        assert_eq!(resumed.ask(), Proposal::Execute { joints: joints.clone(), goal });
+        assert_eq!(resumed.ask(), NextTrial::Execute { joints: joints.clone(), goal });
         whole.tell(Trial { observation: Some(world(&joints)), cells: None, joints, goal });
     }
     assert!(whole.log().len() < 40);

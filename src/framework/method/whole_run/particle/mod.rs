@@ -9,14 +9,17 @@
 //! Source: N. J. Gordon, D. J. Salmond, A. F. M. Smith, IEE Proceedings F 140 (1993) 107-113.
 
 mod spec;
+mod uncertain_robot;
 
 pub use spec::ParticleSpec;
 
+use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::Space;
-use super::surface::cover::{CoverSpec, Ledger, Verdict, fresh_count};
+use super::surface::cover::{CoverSpec, Ledger, TrialEffect, fresh_count};
 use super::surface::sobol;
-use super::{Outcome, Proposal, Trial, WholeRun};
 use crate::random::RandomStream;
+use crate::world::WorldError;
+use uncertain_robot::UncertainRobot;
 
 /// Of a renewed pool, one pose in this many lies around the liked ones; their centres; their spread, rad.
 const LOCAL_SHARE: usize = 4;
@@ -63,7 +66,7 @@ pub struct ParticleIet {
     poses: Vec<Vec<f64>>,
     used: Vec<bool>,
     particles: Vec<Particle>,
-    verdicts: Vec<Verdict>,
+    verdicts: Vec<TrialEffect>,
     next: Option<usize>,
     hopeless: u32,
 }
@@ -207,11 +210,25 @@ impl ParticleIet {
     }
 }
 
+impl WholeRunMethod for ParticleSpec {
+    fn start(&self, run: &RunSetup<'_>) -> Result<Box<dyn WholeRun>, WorldError> {
+        let limit = CoverSpec { max_evaluations: self.max_evaluations, poses: self.poses, max_step_deg: None };
+        let robot = Box::new(UncertainRobot::new(self, run.chain, run.world));
+        let (resets, particles) = (run.world.properties().resets(), self.particles as usize);
+        let space = run.space.clone();
+        Ok(Box::new(ParticleIet::new(limit, resets, space, &run.targets.goals, robot, particles, run.seed)))
+    }
+
+    fn max_step_deg(&self) -> Option<f64> {
+        self.max_step_deg
+    }
+}
+
 impl WholeRun for ParticleIet {
-    fn ask(&mut self) -> Proposal {
+    fn ask(&mut self) -> NextTrial {
         match self.next {
             Some(z) if !self.ledger.is_over() => self.ledger.propose(self.poses[z].clone()),
-            _ => Proposal::Finished,
+            _ => NextTrial::Finished,
         }
     }
 
@@ -239,7 +256,7 @@ impl WholeRun for ParticleIet {
         &self.ledger.accepted
     }
 
-    fn outcomes(&mut self) -> Vec<Outcome> {
+    fn outcomes(&mut self) -> Vec<GoalOutcome> {
         self.ledger.outcomes()
     }
 
@@ -250,7 +267,7 @@ impl WholeRun for ParticleIet {
 
 impl Particle {
     /// Judges what it expected of a trial by the cells that were seen gained, or else by their number.
-    fn learn(&mut self, cover: &[u64], verdict: &Verdict) {
+    fn learn(&mut self, cover: &[u64], verdict: &TrialEffect) {
         let expected = fresh_count(cover, &self.painted);
         let wrong = match (&verdict.fresh, verdict.gain) {
             (Some(seen), _) => {

@@ -1,6 +1,6 @@
 //! Parameters of PARTICLE-IET.
 
-use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
+use crate::method::contract::{Effects, Method, MethodKind, Profile, SimulatorUse};
 use crate::method::parameters::{Parameters, parameters};
 use crate::method::range::{OutOfRange, Range};
 use crate::world::WorldProperties;
@@ -40,7 +40,7 @@ impl Method for ParticleSpec {
         Range::from(1.0..=MOST_COMPARISONS).check("poses x particles x cells", None, comparisons)
     }
 
-    fn max_step_deg(&self) -> Option<f64> {
-        self.max_step_deg
+    fn kind(&self) -> Option<MethodKind> {
+        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }

@@ -4,9 +4,9 @@
 //! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
 //! trial stays. The goal pointer is the first goal above what is observed.
 
-use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
+use crate::method::contract::{Effects, Method, MethodKind, Profile, SimulatorUse};
 use crate::method::parameters::parameters;
-use crate::method::whole_run::{Outcome, Proposal, Trial};
+use crate::method::whole_run::{GoalOutcome, NextTrial, Trial};
 
 parameters! {
     /// Parameters of SEARCH-IET.
@@ -26,8 +26,8 @@ impl Method for CoverSpec {
     fn profile(&self) -> Profile {
         Profile::whole_run(Effects::Accumulating, SimulatorUse::Never)
     }
-    fn max_step_deg(&self) -> Option<f64> {
-        self.max_step_deg
+    fn kind(&self) -> Option<MethodKind> {
+        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }
 
@@ -53,7 +53,7 @@ pub(in crate::method::whole_run) struct Ledger {
 
 /// What a trial amounted to.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::method::whole_run) struct Verdict {
+pub(in crate::method::whole_run) struct TrialEffect {
     /// Steps gained over the accepted trials; none when the observation was lost.
     pub gain: Option<f64>,
     /// The cells gained, 64 a word; none where they are not seen.
@@ -101,11 +101,11 @@ impl Ledger {
         self.log.len() >= self.spec.max_evaluations as usize
     }
 
-    pub fn propose(&self, joints: Vec<f64>) -> Proposal {
-        self.goal().map_or(Proposal::Finished, |goal| Proposal::Execute { joints, goal })
+    pub fn propose(&self, joints: Vec<f64>) -> NextTrial {
+        self.goal().map_or(NextTrial::Finished, |goal| NextTrial::Execute { joints, goal })
     }
 
-    pub fn tell(&mut self, trial: Trial) -> Verdict {
+    pub fn tell(&mut self, trial: Trial) -> TrialEffect {
         let seen = trial.observation.as_ref().map(|o| o[0]);
         let gain = seen.map(|s| (s - self.level) / self.step);
         let one = gain.is_some_and(|g| (g - 1.0).abs() < 0.5);
@@ -126,12 +126,12 @@ impl Ledger {
         }
         self.straight_overshoots = if more && !accepted { self.straight_overshoots + 1 } else { 0 };
         self.log.push(trial);
-        Verdict { gain, fresh, accepted }
+        TrialEffect { gain, fresh, accepted }
     }
 
     /// For each goal the first accepted trial that shows it or more, the last one where none does; for goals that hold
     /// at the start, a trial that changed nothing.
-    pub fn outcomes(&self) -> Vec<Outcome> {
+    pub fn outcomes(&self) -> Vec<GoalOutcome> {
         let seen = |index: usize| self.log[index].observation.as_ref().map(|o| o[0]);
         let kept = self.idle.iter().chain(&self.accepted);
         let shown: Vec<(usize, f64)> = kept.filter_map(|&i| Some((i, seen(i)?))).collect();
@@ -139,7 +139,7 @@ impl Ledger {
         let of = |goal: f64| {
             let found = shown.iter().find(|s| s.1 >= goal - slack).or(shown.last());
             let distance = found.map_or(f64::INFINITY, |s| (s.1 - goal).abs());
-            Outcome { trial: found.map(|s| s.0), distance, reached: distance < 0.5 * self.step }
+            GoalOutcome { trial: found.map(|s| s.0), distance, reached: distance < 0.5 * self.step }
         };
         self.goals.iter().map(|&goal| of(goal)).collect()
     }

@@ -5,7 +5,7 @@ use crate::method::MethodSpec;
 use crate::method::per_goal::StopReason;
 use crate::method::whole_run::ParticleSpec;
 use crate::method::whole_run::model::tests::interrupted;
-use crate::method::whole_run::{Axis, CoverSpec, Grid, Proposal, SearchIet, Space, Trial, WholeRun};
+use crate::method::whole_run::{Axis, CoverSpec, Grid, NextTrial, SearchIet, Space, Trial, WholeRun};
 use crate::preset;
 use crate::world::{SurfaceView, WorldSpec};
 use rstest::rstest;
@@ -85,7 +85,7 @@ fn a_gain_of_two_is_refused_while_the_world_can_be_put_back() {
     let spec = CoverSpec { poses: 64, ..CoverSpec::default() };
     let mut run = SearchIet::new(spec, true, Some(Grid { columns: 4, rows: 1 }), &space, &goals, 1);
     let mut told = |gained: u64| {
-        let Proposal::Execute { joints, goal } = run.ask() else { panic!("not over") };
+        let NextTrial::Execute { joints, goal } = run.ask() else { panic!("not over") };
         let observation = Some(vec![25.0 * f64::from(gained.count_ones())]);
         run.tell(Trial { joints, observation, cells: Some(vec![gained]), goal });
         run.accepted().len()
@@ -102,7 +102,7 @@ fn seen_cells_lead_to_the_others() {
     let spec = CoverSpec { poses: 64, ..CoverSpec::default() };
     let mut run = SearchIet::new(spec, false, Some(Grid { columns: 4, rows: 1 }), &space, &goals, 1);
     let mut painted = 0;
-    while let Proposal::Execute { joints, goal } = run.ask() {
+    while let NextTrial::Execute { joints, goal } = run.ask() {
         painted |= strip(joints[0]);
         let observation = Some(vec![25.0 * f64::from(painted.count_ones())]);
         run.tell(Trial { joints, observation, cells: Some(vec![painted]), goal });

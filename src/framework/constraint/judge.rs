@@ -1,4 +1,4 @@
-//! The judge: applies constraints to any optimiser, between its proposals and their execution.
+//! The judge of one goal: it stands between what an optimiser proposes and what is executed.
 //!
 //! The judge sees every candidate before it is executed, and every discrepancy before the optimiser does, so one
 //! mechanism serves all optimisers. Guarantees per strategy:
@@ -10,6 +10,7 @@
 //! optimiser as failed, and the optimiser's own stagnation ends the search.
 //!
 //! # Invariants
+//! - The judge is no optimiser and holds none: each call is given the optimiser it judges, always the same one.
 //! - The bits do not depend on how many candidates are asked for at once: proposals are judged one by one. If a
 //!   judgement depends on earlier executions (repairing, operators), candidates are also handed out one by one.
 //! - `state.waiting` lists the candidates handed out and not yet reported back, with their violations if infeasible.
@@ -18,9 +19,9 @@ use super::error::ConstraintError;
 use super::penalty::{self, PenaltyState, penalised};
 use super::set::{Constraints, Proposal};
 use super::spec::{HandlingSpec, OnInfeasible, PenaltyKind};
-use super::state::{ConstrainedState, STATE_VERSION, Waiting};
+use super::state::{JudgeState, Judged, STATE_VERSION};
 use crate::method::per_goal::{
-    Batch, Best, Incumbent, Optimizer, OptimizerError, OptimizerState, Outcome, SearchSpace, StopReason, Tally,
+    Batch, Best, Incumbent, Optimizer, OptimizerError, Outcome, SearchSpace, StopReason, Tally,
 };
 use crate::random::RandomStream;
 use std::sync::Arc;
@@ -76,17 +77,16 @@ impl Rules {
     }
 }
 
-/// An optimiser under constraints.
-pub struct Constrained {
-    inner: Box<dyn Optimizer>,
+/// The judge of one goal.
+pub struct Judge {
     rules: Rules,
     space: SearchSpace,
-    state: ConstrainedState,
+    state: JudgeState,
     proposed: Batch,
 }
 
 /// Decision about a candidate.
-enum Verdict {
+enum Judgement {
     Execute,
     /// Executed at these joints instead.
     Amend(Vec<f64>),
@@ -95,15 +95,14 @@ enum Verdict {
     Tell(Outcome<'static>),
 }
 
-impl Constrained {
-    /// Puts a fresh `inner` under `rules`; `stream` separates the goals of one seed.
+impl Judge {
+    /// A judge by `rules` of a fresh search of `space`; `goal` separates the goals of one seed.
     #[must_use]
-    pub fn new(inner: Box<dyn Optimizer>, rules: Rules, space: SearchSpace, seed: u64, stream: u64) -> Self {
+    pub fn new(rules: Rules, space: SearchSpace, seed: u64, goal: u64) -> Self {
         let kind = if let HandlingSpec::Penalty(spec) = &rules.handling { spec.penalty } else { NO_PENALTY };
-        let state = ConstrainedState {
+        let state = JudgeState {
             version: STATE_VERSION,
-            inner: inner.state(),
-            rng: RandomStream::new(seed, stream | 1 << 63),
+            rng: RandomStream::new(seed, goal | 1 << 63),
             penalty: PenaltyState::new(&kind),
             generation: 0,
             attempts: 0,
@@ -112,27 +111,22 @@ impl Constrained {
             nearest: None,
             tally: Tally::default(),
         };
-        Self::with(inner, rules, space, state)
+        Self::with(rules, space, state)
     }
 
-    /// Resumes from a saved state; `inner` was resumed from [`ConstrainedState::inner`].
+    /// Resumes from a saved state.
     ///
     /// # Errors
-    /// [`OptimizerError`] if the state's version or shape does not match.
-    pub fn resume(
-        inner: Box<dyn Optimizer>,
-        rules: Rules,
-        space: SearchSpace,
-        mut state: ConstrainedState,
-    ) -> Result<Self, OptimizerError> {
+    /// [`OptimizerError`] if the state's version or shape does not fit.
+    pub fn resume(rules: Rules, space: SearchSpace, mut state: JudgeState) -> Result<Self, OptimizerError> {
         state.check(&space)?;
         state.waiting.clear(); // they are asked again
-        Ok(Self::with(inner, rules, space, state))
+        Ok(Self::with(rules, space, state))
     }
 
-    fn with(inner: Box<dyn Optimizer>, rules: Rules, space: SearchSpace, state: ConstrainedState) -> Self {
+    fn with(rules: Rules, space: SearchSpace, state: JudgeState) -> Self {
         let proposed = Batch::new(space.lower.len(), 1);
-        Self { inner, rules, space, state, proposed }
+        Self { rules, space, state, proposed }
     }
 
     fn sequential(&self) -> bool {
@@ -140,11 +134,11 @@ impl Constrained {
     }
 
     /// Applies the strategy to a candidate.
-    fn judge(&mut self, id: u64, joints: &[f64]) -> Verdict {
-        let proposal = Proposal { joints, origins: self.inner.origins(id), previous: self.rules.previous.as_deref() };
+    fn judge(&mut self, optimizer: &dyn Optimizer, id: u64, joints: &[f64]) -> Judgement {
+        let proposal = Proposal { joints, origins: optimizer.origins(id), previous: self.rules.previous.as_deref() };
         if self.rules.constraints.is_feasible(&proposal) {
             self.state.attempts = 0;
-            return Verdict::Execute;
+            return Judgement::Execute;
         }
         let violations: Vec<f64> = self.rules.constraints.violations(&proposal).collect();
         self.note(&violations);
@@ -153,19 +147,19 @@ impl Constrained {
                 if self.state.attempts < *max_attempts {
                     self.state.attempts += 1;
                     self.state.tally.rejected += 1;
-                    return Verdict::Tell(Outcome::Rejected);
+                    return Judgement::Tell(Outcome::Rejected);
                 }
                 self.state.attempts = 0;
-                Verdict::Tell(Outcome::Failed)
+                Judgement::Tell(Outcome::Failed)
             }
             HandlingSpec::Penalty(spec) => match spec.penalty {
                 PenaltyKind::Death { value } => {
-                    Verdict::Tell(Outcome::Penalised { fitness: beyond_target(&self.space, value) })
+                    Judgement::Tell(Outcome::Penalised { fitness: beyond_target(&self.space, value) })
                 }
-                _ => Verdict::Worsen(violations),
+                _ => Judgement::Worsen(violations),
             },
-            HandlingSpec::Repairing { max_attempts } => self.moved(id, joints, *max_attempts, true),
-            HandlingSpec::Operators { max_attempts } => self.moved(id, joints, *max_attempts, false),
+            HandlingSpec::Repairing { max_attempts } => self.moved(optimizer.origins(id), joints, *max_attempts, true),
+            HandlingSpec::Operators { max_attempts } => self.moved(optimizer.origins(id), joints, *max_attempts, false),
         }
     }
 
@@ -179,8 +173,7 @@ impl Constrained {
 
     /// Moves the candidate to a feasible pose: towards the best known one up to the boundary (repairing), or back to
     /// its origin in halved steps (operators). If neither is known, a random feasible pose is drawn.
-    fn moved(&mut self, id: u64, joints: &[f64], max_attempts: u32, repair: bool) -> Verdict {
-        let origins = self.inner.origins(id);
+    fn moved(&mut self, origins: [Option<&[f64]>; 2], joints: &[f64], max_attempts: u32, repair: bool) -> Judgement {
         let feasible = |place: &[f64]| self.rules.is_feasible(place, origins);
         let origin = origins[0].filter(|_| !repair);
         let known = self.state.known.as_ref().map(|known| known.joints.as_slice());
@@ -193,24 +186,126 @@ impl Constrained {
                 sampled(&self.space, &mut self.state.rng, max_attempts, |p| rules.is_feasible(p, origins))
             }
         };
-        place.map_or(Verdict::Tell(Outcome::Failed), Verdict::Amend)
+        place.map_or(Judgement::Tell(Outcome::Failed), Judgement::Amend)
     }
 
-    fn generation_may_have_ended(&mut self) {
-        let generation = self.inner.generation();
+    fn generation_may_have_ended(&mut self, optimizer: &dyn Optimizer) {
+        let generation = optimizer.generation();
         if generation == self.state.generation {
             return;
         }
         self.state.generation = generation;
         let HandlingSpec::Penalty(spec) = &self.rules.handling else { return };
         let previous = self.rules.previous.as_deref();
-        let best = self.inner.best();
+        let best = optimizer.best();
         // The best is judged as an individual, because its parents are gone.
         let feasible = best.is_some_and(|best| {
             let proposal = Proposal { joints: best.joints, origins: [None; 2], previous };
             best.provenance.is_executed() && self.rules.constraints.is_feasible(&proposal)
         });
         self.state.penalty.generation_ended(&spec.penalty, feasible);
+    }
+
+    /// Fills `batch` with the candidates of `optimizer` that may be executed.
+    pub fn ask(&mut self, optimizer: &mut dyn Optimizer, batch: &mut Batch) {
+        while !batch.is_full() && (self.state.waiting.is_empty() || !self.sequential()) {
+            self.proposed.clear(1);
+            optimizer.ask(&mut self.proposed);
+            let Some((id, joints)) = self.proposed.iter().next().map(|(id, joints)| (id, joints.to_vec())) else {
+                return;
+            };
+            let (joints, violations) = match self.judge(&*optimizer, id, &joints) {
+                Judgement::Execute => (joints, Vec::new()),
+                Judgement::Worsen(violations) => (joints, violations),
+                Judgement::Amend(place) => {
+                    optimizer.amend(id, &place);
+                    self.state.tally.repaired += 1;
+                    (place, Vec::new())
+                }
+                Judgement::Tell(outcome) => {
+                    self.state.tally.penalised += u64::from(matches!(outcome, Outcome::Penalised { .. }));
+                    optimizer.tell(id, outcome);
+                    self.generation_may_have_ended(&*optimizer);
+                    continue;
+                }
+            };
+            batch.push(id, &joints);
+            self.state.waiting.push(Judged { id, joints, violations });
+        }
+    }
+
+    /// Tells `optimizer` what became of a candidate.
+    pub fn tell(&mut self, optimizer: &mut dyn Optimizer, id: u64, outcome: Outcome<'_>) {
+        let Some(at) = self.state.waiting.iter().position(|w| w.id == id) else { return };
+        let Judged { joints, violations, .. } = self.state.waiting.remove(at);
+        match (outcome, &self.rules.handling) {
+            (Outcome::Observed { fitness, observation, provenance }, HandlingSpec::Penalty(spec))
+                if !violations.is_empty() =>
+            {
+                let generation = self.state.generation;
+                let worse = penalised(spec, &self.state.penalty, generation, fitness, violations.into_iter());
+                let fitness = beyond_target(&self.space, worse);
+                self.state.tally.worsened += 1;
+                optimizer.tell(id, Outcome::Observed { fitness, observation, provenance });
+            }
+            (Outcome::Observed { fitness, observation, provenance }, _) => {
+                if self.state.known.as_ref().is_none_or(|known| fitness < known.fitness) {
+                    self.state.known =
+                        Some(Incumbent { joints, observation: observation.to_vec(), fitness, provenance });
+                }
+                optimizer.tell(id, outcome);
+            }
+            _ => optimizer.tell(id, outcome),
+        }
+        self.generation_may_have_ended(&*optimizer);
+    }
+
+    /// The best candidate so far that may be the goal's result.
+    #[must_use]
+    pub fn best<'a>(&'a self, optimizer: &'a dyn Optimizer) -> Option<Best<'a>> {
+        let known = self.state.known.as_ref().map(Incumbent::as_best);
+        match (&self.rules.handling, self.rules.on_infeasible) {
+            (HandlingSpec::Penalty(spec), _)
+                if !matches!(spec.penalty, PenaltyKind::Death { .. }) && known.is_some() =>
+            {
+                known
+            }
+            (_, OnInfeasible::Stop) if known.is_none() => None,
+            _ => optimizer.best(),
+        }
+    }
+
+    /// Why the search has ended by its own rules; `None` while it goes on.
+    #[must_use]
+    pub fn stop(&self, optimizer: &dyn Optimizer) -> Option<StopReason> {
+        let reason = optimizer.stop()?;
+        let none = self.state.known.is_none() && self.rules.on_infeasible == OnInfeasible::Stop;
+        Some(if none { StopReason::Infeasible } else { reason })
+    }
+
+    /// Everything needed to go on with the same bits.
+    #[must_use]
+    pub fn state(&self) -> &JudgeState {
+        &self.state
+    }
+
+    /// Whether candidate `id` (asked and not told) may be the result of its goal.
+    #[must_use]
+    pub fn is_feasible(&self, id: u64) -> bool {
+        self.state.waiting.iter().any(|w| w.id == id && w.violations.is_empty())
+    }
+
+    /// Where fitness values come from that were no evaluations, `optimizer`'s included.
+    #[must_use]
+    pub fn tally(&self, optimizer: &dyn Optimizer) -> Tally {
+        let Tally { inherited, granule, .. } = optimizer.tally();
+        Tally { inherited, granule, ..self.state.tally }
+    }
+
+    /// The smallest violations of an infeasible candidate so far, one per constraint (m or rad).
+    #[must_use]
+    pub fn nearest_violations(&self) -> Option<&[f64]> {
+        self.state.nearest.as_deref()
     }
 }
 
@@ -263,106 +358,4 @@ fn sampled(
         let place: Vec<f64> = limits.map(|(&low, &high)| rng.between(low, high)).collect();
         feasible(&place).then_some(place)
     })
-}
-
-impl Optimizer for Constrained {
-    fn ask(&mut self, batch: &mut Batch) {
-        while !batch.is_full() && (self.state.waiting.is_empty() || !self.sequential()) {
-            self.proposed.clear(1);
-            self.inner.ask(&mut self.proposed);
-            let Some((id, joints)) = self.proposed.iter().next().map(|(id, joints)| (id, joints.to_vec())) else {
-                return;
-            };
-            let (joints, violations) = match self.judge(id, &joints) {
-                Verdict::Execute => (joints, Vec::new()),
-                Verdict::Worsen(violations) => (joints, violations),
-                Verdict::Amend(place) => {
-                    self.inner.amend(id, &place);
-                    self.state.tally.repaired += 1;
-                    (place, Vec::new())
-                }
-                Verdict::Tell(outcome) => {
-                    self.state.tally.penalised += u64::from(matches!(outcome, Outcome::Penalised { .. }));
-                    self.inner.tell(id, outcome);
-                    self.generation_may_have_ended();
-                    continue;
-                }
-            };
-            batch.push(id, &joints);
-            self.state.waiting.push(Waiting { id, joints, violations });
-        }
-    }
-
-    fn tell(&mut self, id: u64, outcome: Outcome<'_>) {
-        let Some(at) = self.state.waiting.iter().position(|w| w.id == id) else { return };
-        let Waiting { joints, violations, .. } = self.state.waiting.remove(at);
-        match (outcome, &self.rules.handling) {
-            (Outcome::Observed { fitness, observation, provenance }, HandlingSpec::Penalty(spec))
-                if !violations.is_empty() =>
-            {
-                let generation = self.state.generation;
-                let worse = penalised(spec, &self.state.penalty, generation, fitness, violations.into_iter());
-                let fitness = beyond_target(&self.space, worse);
-                self.state.tally.worsened += 1;
-                self.inner.tell(id, Outcome::Observed { fitness, observation, provenance });
-            }
-            (Outcome::Observed { fitness, observation, provenance }, _) => {
-                if self.state.known.as_ref().is_none_or(|known| fitness < known.fitness) {
-                    self.state.known =
-                        Some(Incumbent { joints, observation: observation.to_vec(), fitness, provenance });
-                }
-                self.inner.tell(id, outcome);
-            }
-            _ => self.inner.tell(id, outcome),
-        }
-        self.generation_may_have_ended();
-    }
-
-    fn best(&self) -> Option<Best<'_>> {
-        let known = self.state.known.as_ref().map(Incumbent::as_best);
-        match (&self.rules.handling, self.rules.on_infeasible) {
-            (HandlingSpec::Penalty(spec), _)
-                if !matches!(spec.penalty, PenaltyKind::Death { .. }) && known.is_some() =>
-            {
-                known
-            }
-            (_, OnInfeasible::Stop) if known.is_none() => None,
-            _ => self.inner.best(),
-        }
-    }
-
-    fn stop(&self) -> Option<StopReason> {
-        let reason = self.inner.stop()?;
-        let none = self.state.known.is_none() && self.rules.on_infeasible == OnInfeasible::Stop;
-        Some(if none { StopReason::Infeasible } else { reason })
-    }
-
-    fn state(&self) -> OptimizerState {
-        OptimizerState::Constrained(Box::new(ConstrainedState { inner: self.inner.state(), ..self.state.clone() }))
-    }
-
-    fn generation(&self) -> u64 {
-        self.inner.generation()
-    }
-
-    fn origins(&self, id: u64) -> [Option<&[f64]>; 2] {
-        self.inner.origins(id)
-    }
-
-    fn amend(&mut self, id: u64, joints: &[f64]) {
-        self.inner.amend(id, joints);
-    }
-
-    fn is_feasible(&self, id: u64) -> bool {
-        self.state.waiting.iter().any(|w| w.id == id && w.violations.is_empty())
-    }
-
-    fn tally(&self) -> Tally {
-        let Tally { inherited, granule, .. } = self.inner.tally();
-        Tally { inherited, granule, ..self.state.tally }
-    }
-
-    fn nearest_violations(&self) -> Option<&[f64]> {
-        self.state.nearest.as_deref()
-    }
 }
