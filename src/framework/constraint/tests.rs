@@ -61,7 +61,7 @@ fn soft() -> [HandlingSpec; 4] {
 fn problem(method: &str, constraint: ConstraintSpec, handling: HandlingSpec) -> Problem {
     let mut problem = shipped("wax").unwrap().problem;
     let mut parameters = match method {
-        "sst" => json!({"population": 12}),
+        "sst" | "de" => json!({"population": 12}),
         "cma_es" => json!({"restarts": 1}),
         _ => json!({"swarm": {"population": 12}}),
     };
@@ -117,7 +117,7 @@ fn winners_are_feasible(problem: &Problem, result: &RunResult) -> bool {
     })
 }
 
-const METHODS: [&str; 5] = ["sst", "pso", "fi_pso", "affg_pso", "cma_es"];
+const METHODS: [&str; 6] = ["sst", "pso", "fi_pso", "affg_pso", "cma_es", "de"];
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3))]
@@ -164,7 +164,7 @@ proptest! {
         seed: u64, which in 0_usize..6, how in 0_usize..8, cuts in prop::collection::vec(1_u64..60, 1..6)
     ) {
         let handling = [hard(), soft()].concat()[how].clone();
-        let problem = problem(METHODS[which % 5], geometries()[which].clone(), handling);
+        let problem = problem(METHODS[which % METHODS.len()], geometries()[which].clone(), handling);
         let whole = run(&problem, seed);
         let mut iet = Iet::new(&problem, seed).unwrap();
         for budget in cuts {

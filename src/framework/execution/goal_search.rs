@@ -6,12 +6,12 @@ use crate::method::per_goal::{Batch, Best, Optimizer, OptimizerState, Outcome, S
 /// An optimiser at work on one goal.
 pub(super) struct GoalSearch {
     optimizer: Box<dyn Optimizer>,
-    judge: Option<Judge>,
+    judge: Option<Box<Judge>>,
 }
 
 impl GoalSearch {
     pub fn new(optimizer: Box<dyn Optimizer>, judge: Option<Judge>) -> Self {
-        Self { optimizer, judge }
+        Self { optimizer, judge: judge.map(Box::new) }
     }
 
     /// Fills `batch` with candidates that may be executed.
@@ -53,7 +53,7 @@ impl GoalSearch {
 
     /// The smallest violations of an infeasible candidate so far, one per constraint (m or rad).
     pub fn nearest_violations(&self) -> Option<&[f64]> {
-        self.judge.as_ref().and_then(Judge::nearest_violations)
+        self.judge.as_deref().and_then(Judge::nearest_violations)
     }
 
     /// Fitness values so far that were no evaluations.

@@ -9,7 +9,7 @@
 use super::auto::AutoSpec;
 use super::contract::{Knowledge, Method, MethodKind, Profile, Scope};
 use super::parameters::{Parameter, Parameters, sentence};
-use super::per_goal::{AffgPsoSpec, CmaEsSpec, FiPsoSpec, PsoSpec, SstSpec};
+use super::per_goal::{AffgPsoSpec, CmaEsSpec, DeSpec, FiPsoSpec, PsoSpec, SstSpec};
 use super::per_goal::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, SearchSpace};
 use super::range::OutOfRange;
 use super::whole_run::{BroydenSpec, CoverSpec, ModelSpec, ParticleSpec};
@@ -40,11 +40,10 @@ macro_rules! catalogue {
     ($($(#[doc = $sentence:literal])+ $variant:ident($spec:ident) = $name:literal, $label:literal;)+) => {
         /// A method with its parameters; `name` picks one.
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-        #[serde(tag = "name")]
+        #[serde(tag = "name", rename_all = "snake_case")]
         pub enum MethodSpec {
             $(
                 $(#[doc = $sentence])+
-                #[serde(rename = $name)]
                 $variant($spec),
             )+
         }
@@ -115,6 +114,8 @@ catalogue! {
     /// Covariance matrix adaptation, begun at the previous goal's result: hundreds of evaluations, for features that jump
     /// or a robot beyond modelling.
     CmaEs(CmaEsSpec) = "cma_es", "CMA-ES";
+    /// Differential evolution: thousands of evaluations, for simulation; few parameters, and seldom caught in a valley.
+    De(DeSpec) = "de", "DE";
     /// Gauss-Newton with Broyden's Jacobian, carried over from goal to goal, a classical yardstick: few evaluations where
     /// it converges, with some bad runs.
     Broyden(BroydenSpec) = "broyden", "Broyden";
@@ -221,6 +222,7 @@ mod tests {
             let method = MethodSpec::by_name(entry.name).unwrap();
             assert_eq!(method.method().check_ranges(), Ok(()), "{}", entry.name);
             let written = serde_json::to_value(&method).unwrap();
+            assert_eq!(written["name"], entry.name);
             for parameter in &entry.parameters {
                 let default = written.get(parameter.name).cloned().unwrap_or(Value::Null);
                 assert_eq!(default, parameter.default, "{}.{}", entry.name, parameter.name);

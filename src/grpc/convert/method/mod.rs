@@ -23,6 +23,7 @@ pub fn method(at: &str, message: proto::MethodSpec) -> Result<MethodSpec, AppErr
         Name::FiPso(message) => swarm::fi_pso(at, message).map(MethodSpec::FiPso),
         Name::AffgPso(message) => swarm::affg_pso(at, message).map(MethodSpec::AffgPso),
         Name::CmaEs(message) => per_goal::cma_es(at, message).map(MethodSpec::CmaEs),
+        Name::De(message) => per_goal::de(at, message).map(MethodSpec::De),
         Name::Broyden(message) => whole_run::broyden(at, message).map(MethodSpec::Broyden),
         Name::Model(message) => whole_run::model(at, message).map(MethodSpec::Model),
         Name::Particle(message) => whole_run::particle(at, message).map(MethodSpec::Particle),
@@ -70,6 +71,7 @@ impl From<MethodSpec> for proto::MethodSpec {
             MethodSpec::FiPso(spec) => Name::FiPso(spec.into()),
             MethodSpec::AffgPso(spec) => Name::AffgPso(spec.into()),
             MethodSpec::CmaEs(spec) => Name::CmaEs(spec.into()),
+            MethodSpec::De(spec) => Name::De(spec.into()),
             MethodSpec::Broyden(spec) => Name::Broyden(spec.into()),
             MethodSpec::Model(spec) => Name::Model(spec.into()),
             MethodSpec::Particle(spec) => Name::Particle(spec.into()),
@@ -118,6 +120,7 @@ mod tests {
                 "prior": "simulator"}),
             json!({"name": "particle", "max_evaluations": 3, "particles": 4, "poses": 5, "link_share": 0.1,
                 "base_shift_m": 0.2, "max_step_deg": 6.0}),
+            json!({"name": "de", "population": 9, "stagnation": 4, "weight": 0.6, "crossover": 0.5, "bounds": "clamp"}),
             json!({"name": "search", "max_evaluations": 3, "poses": 4, "max_step_deg": 5.0}),
         ];
         let defaults = MethodSpec::NAMES.map(|name| json!({"name": name}));
@@ -136,6 +139,7 @@ mod tests {
             Name::FiPso(proto::InheritingSwarm::default()),
             Name::AffgPso(proto::GranulatingSwarm::default()),
             Name::CmaEs(proto::CovarianceAdaptation::default()),
+            Name::De(proto::DifferentialEvolution::default()),
             Name::Broyden(proto::BroydenMethod::default()),
             Name::Model(proto::ModelIet::default()),
             Name::Particle(proto::ParticleIet::default()),

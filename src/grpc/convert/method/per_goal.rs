@@ -2,7 +2,7 @@
 
 use super::{number, number_or_none};
 use crate::app::model::AppError;
-use crate::framework::method::per_goal::{BoundsRule, CmaEsSpec, SstSpec};
+use crate::framework::method::per_goal::{BoundsRule, CmaEsSpec, DeSpec, SstSpec};
 use crate::grpc::convert::enumeration::Enumeration as _;
 use crate::grpc::proto;
 
@@ -55,6 +55,18 @@ pub(super) fn cma_es(at: &str, message: proto::CovarianceAdaptation) -> Result<C
     })
 }
 
+pub(super) fn de(at: &str, message: proto::DifferentialEvolution) -> Result<DeSpec, AppError> {
+    let proto::DifferentialEvolution { population, stagnation, weight, crossover, bounds } = message;
+    let default = DeSpec::default();
+    Ok(DeSpec {
+        population: population.unwrap_or(default.population),
+        stagnation: stagnation.unwrap_or(default.stagnation),
+        weight: number(at, "weight", weight, default.weight)?,
+        crossover: number(at, "crossover", crossover, default.crossover)?,
+        bounds: bounds_rule(at, bounds, default.bounds)?,
+    })
+}
+
 /// The rule, or the method's default if it is unspecified.
 pub(super) fn bounds_rule(at: &str, number: i32, default: BoundsRule) -> Result<BoundsRule, AppError> {
     Ok(BoundsRule::read(&format!("{at}/bounds"), number)?.unwrap_or(default))
@@ -95,6 +107,19 @@ impl From<CmaEsSpec> for proto::CovarianceAdaptation {
             stagnation: Some(stagnation),
             restarts: Some(restarts),
             restart_growth: Some(restart_growth),
+            bounds: bounds.number(),
+        }
+    }
+}
+
+impl From<DeSpec> for proto::DifferentialEvolution {
+    fn from(spec: DeSpec) -> Self {
+        let DeSpec { population, stagnation, weight, crossover, bounds } = spec;
+        Self {
+            population: Some(population),
+            stagnation: Some(stagnation),
+            weight: Some(weight),
+            crossover: Some(crossover),
             bounds: bounds.number(),
         }
     }
