@@ -90,6 +90,8 @@ const TOP_LEVEL: &[&str] = &[
     ".dockerignore",
     ".github",
     ".gitignore",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
     "Cargo.lock",
     "Cargo.toml",
     "Dockerfile",
