@@ -17,7 +17,7 @@ const BATCH_S: f64 = 0.1;
 pub struct Paced {
     inner: Box<dyn Evaluator>,
     per_s: f64,
-    /// When the next batch may begin.
+    /// Earliest start of the next batch.
     due: Instant,
 }
 

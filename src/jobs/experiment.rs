@@ -1,10 +1,10 @@
-//! An experiment: pending runs on all cores, their rows stored as they end.
+//! Experiment jobs: pending runs on all cores, their rows stored as they finish.
 //!
 //! # Invariants
-//! - Rows, progress and the event that tells it are one transaction: a job that goes on later runs exactly the runs
-//!   that have no row, and each run is a pure function of plan and seed, so the table does not depend on the stops.
-//! - A run that is under way when the job is asked to rest is given up, not waited for; it has no row and runs again.
-//! - Order of completion and number of threads cannot be seen: rows are kept by cell and repetition.
+//! - Rows, progress and the progress event are one transaction. A resumed job executes exactly the runs without a row,
+//!   and each run is a pure function of plan and seed, so the table does not depend on interruptions.
+//! - A run in flight when the job is asked to stop is abandoned, not awaited; it has no row and runs again.
+//! - Completion order and number of threads are not observable: rows are stored by cell and repetition.
 
 use super::lease::{ClaimedJob, LeaseLost, Stop, blocking};
 use crate::app::model::ExperimentId;
@@ -20,12 +20,12 @@ use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, Sender, channel};
 use tokio::time::{Instant, timeout};
 
-/// Rows that may wait for the store before the runs wait for them.
+/// Capacity of the queue of rows waiting for the store; full, it makes the runs wait.
 const ROWS_WAITING: usize = 1024;
 /// Time between looks at the job's state while no run ends.
 const LOOK_UP: Duration = Duration::from_secs(1);
 
-/// Runs the job to its end, or until it is asked to rest.
+/// Runs the job to its end, or until it is asked to stop.
 pub(super) async fn run(claimed: &ClaimedJob, job: &JobView, experiment: ExperimentId) -> Result<(), Stop> {
     claimed.start().await?;
     loop {
@@ -35,7 +35,7 @@ pub(super) async fn run(claimed: &ClaimedJob, job: &JobView, experiment: Experim
         if running.finished == running.runs {
             return Ok(claimed.succeed(Advance::default()).await?);
         }
-        // The runs under way were given up. If the job may go on after all, they run again.
+        // The runs in flight were abandoned. If the job continues after all, they run again.
         claimed.settle(state).await?;
     }
 }
@@ -55,7 +55,7 @@ fn run_pending(experiment: &Experiment, going: &AtomicBool, sender: Sender<RunRo
         let each = pending.into_iter().par_bridge();
         each.try_for_each_with(sender, |sender, id| step(plan, id, going, sender))
     };
-    // Threads of its own: an experiment beside another one gets its share of the cores, not what is left.
+    // A thread pool per experiment, so that concurrent experiments share the cores fairly.
     let result = match rayon::ThreadPoolBuilder::new().build() {
         Ok(threads) => threads.install(all),
         Err(_) => all(),
@@ -66,7 +66,7 @@ fn run_pending(experiment: &Experiment, going: &AtomicBool, sender: Sender<RunRo
     }
 }
 
-/// One run; an error without content is the wish to stop.
+/// Executes one run; an empty error means that it was asked to stop.
 fn step(plan: &Plan, id: RunId, going: &AtomicBool, sender: &Sender<RunRow>) -> Result<(), Option<RunError>> {
     match run_while(plan, id, || going.load(Ordering::Acquire)) {
         Ok(Some(row)) => sender.blocking_send(row).map_err(|_| None),
@@ -78,7 +78,7 @@ fn step(plan: &Plan, id: RunId, going: &AtomicBool, sender: &Sender<RunRow>) -> 
 struct RunningExperiment<'a> {
     claimed: &'a ClaimedJob,
     going: Arc<AtomicBool>,
-    /// Ended, but not written yet.
+    /// Finished rows that are not written yet.
     rows: Vec<RunRow>,
     written: Instant,
     finished: u64,
@@ -120,7 +120,7 @@ impl<'a> RunningExperiment<'a> {
         Ok(state)
     }
 
-    /// Writes rows as they come until there are no more; answers the job's state.
+    /// Writes rows as they arrive until there are no more; returns the job's state.
     async fn follow(&mut self, mut rows: Receiver<RunRow>) -> Result<State, LeaseLost> {
         let every = self.claimed.settings.checkpoint;
         let mut interrupt = self.claimed.interrupt();

@@ -1,4 +1,4 @@
-//! A generalization: demonstrations become an action. Short enough to need no checkpoint.
+//! Generalization jobs: demonstrations become an action. Too short to need a checkpoint.
 
 use super::lease::{ClaimedJob, Stop, blocking};
 use crate::app::demonstrations::decode;

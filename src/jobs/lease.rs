@@ -1,10 +1,10 @@
-//! A claimed job and its lease: every write of a worker goes through its claim.
+//! A claimed job and its lease; every write of a worker goes through its claim.
 //!
 //! # Invariants
-//! - A claim that may no longer hold stops the work: renewals that fail for half the lease count as a lost lease, so the
-//!   worker gives up before another one can claim the job.
+//! - A claim that may no longer hold stops the work. If renewals keep failing for half the lease, the worker gives the
+//!   job up, before another worker can claim it.
 //! - [`ClaimedJob::settle`] is the only answer to pause, cancel and shutdown. Whatever happens between reading a state
-//!   and acting on it, the job ends up in a state nobody holds, or the work goes on.
+//!   and acting on it, either the job ends up in a state that no worker holds, or the work continues.
 
 use super::Settings;
 use crate::app::Ports;
@@ -16,18 +16,18 @@ use tokio::task::JoinHandle;
 use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 
-/// Why a worker loses a job.
+/// Reasons why a worker loses a job.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum LeaseLost {
     /// The claim no longer holds, or cannot be confirmed.
     #[error("the lease is lost")]
     Expired,
-    /// The store failed; the job is taken back when its lease ends.
+    /// The store failed; the job is requeued when its lease expires.
     #[error(transparent)]
     Store(StoreError),
 }
 
-/// Why work on a job stops before its end.
+/// Reasons why work on a job stops before its end.
 #[derive(Debug)]
 pub(super) enum Stop {
     /// The job was paused, cancelled or given back in an orderly way.
@@ -153,8 +153,8 @@ impl ClaimedJob {
         }
     }
 
-    /// Tells the job's state machine what happens. A user may have changed the state since it was read; if the machine
-    /// therefore refuses the event, the answer is the present state.
+    /// Applies an event to the job. A user may have changed the state since it was read; if the state machine therefore
+    /// rejects the event, the current state is returned.
     async fn transition(&self, transition: Transition) -> Result<State, LeaseLost> {
         match self.advance(Advance { transition: Some(transition), ..Advance::default() }).await {
             Err(LeaseLost::Store(StoreError::Transition(refused))) => Ok(refused.state),
@@ -162,19 +162,19 @@ impl ClaimedJob {
         }
     }
 
-    /// Begins the work, unless something else was asked for meanwhile.
+    /// Starts the work, unless something else was requested in the meantime.
     pub(super) async fn start(&self) -> Result<(), Stop> {
         let state = self.transition(Transition::plain(Event::Start)).await?;
         self.settle(state).await
     }
 
-    /// Does what a user or a stopping server asked for, `state` being the job's; `Ok` if the work goes on. Everything
+    /// Obeys a user's request or a stopping server, given the job's `state`; `Ok` if the work continues. Everything
     /// worth keeping must have been written.
     ///
     /// # Errors
-    /// [`Stop::Released`] after the job was paused, cancelled or given back.
+    /// [`Stop::Released`] after the job was paused, cancelled or returned.
     pub(super) async fn settle(&self, mut state: State) -> Result<(), Stop> {
-        // A refused answer means that the user asked for something else meanwhile: then that is done.
+        // A rejected event means that the user has requested something else in the meantime, which is then obeyed.
         while let Some(event) = answer(state, self.is_stopping()) {
             state = self.transition(Transition::plain(event)).await?;
         }
@@ -244,7 +244,7 @@ async fn renew(ports: Ports, settings: Settings, claim: Claim, lost: Cancellatio
     }
 }
 
-/// CPU work on its own thread; a panic there ends the job, for it would come again.
+/// Runs CPU-bound work on a blocking thread. A panic fails the job, because a retry would panic again.
 pub(super) async fn blocking<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Result<T, Stop> {
     let done = tokio::task::spawn_blocking(work).await;
     done.map_err(|panic| Stop::failed("internal", format!("the computation panicked: {panic}")))

@@ -10,7 +10,7 @@ use tokio::sync::broadcast::{Receiver, error::RecvError};
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
-/// How jobs are run.
+/// Settings of the runner.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Jobs that run at the same time.
@@ -19,7 +19,7 @@ pub struct Settings {
     pub lease: Duration,
     /// Time between heartbeats.
     pub heartbeat: Duration,
-    /// Time between checkpoints.
+    /// Checkpoint interval.
     pub checkpoint: Duration,
     /// A job that loses its worker this many times in a row without a checkpoint fails.
     pub max_crashes: u32,
@@ -37,7 +37,7 @@ impl Default for Settings {
     }
 }
 
-/// Time between looks for jobs without a hint.
+/// Polling interval for queued jobs, in case a wake-up is lost.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
 
 /// The running workers.
@@ -58,7 +58,7 @@ impl Runner {
     ) -> Result<Self, StoreError> {
         let orphans = ports.store.begin_epoch(ports.clock.now()).await?;
         if !orphans.is_empty() {
-            tracing::info!(jobs = orphans.len(), "jobs of an earlier server go on from their checkpoints");
+            tracing::info!(jobs = orphans.len(), "jobs of an earlier server continue from their checkpoints");
         }
         let stop = CancellationToken::new();
         let mut tasks = JoinSet::new();
@@ -100,7 +100,7 @@ impl Worker {
                 Ok(Some(claimed)) => self.attempt(claimed).await,
                 Ok(None) => queued(&mut wakes, &self.stop).await,
                 Err(error) => {
-                    tracing::error!(error = %error, cause = ?error, "no job could be claimed");
+                    tracing::error!(error = %error, cause = ?error, "cannot claim a job");
                     rest(LOOK_AGAIN, &self.stop).await;
                 }
             }
@@ -145,7 +145,7 @@ async fn reap(ports: Ports, stop: CancellationToken) {
                     ports.events.publish(Wake::Queued);
                 }
             }
-            Err(error) => tracing::error!(error = %error, cause = ?error, "leases could not be checked"),
+            Err(error) => tracing::error!(error = %error, cause = ?error, "cannot check leases"),
         }
     }
 }
@@ -157,7 +157,7 @@ async fn rest(time: Duration, stop: &CancellationToken) {
     }
 }
 
-/// Returns when a job may wait, at the latest after a second.
+/// Returns when a job may be waiting, at the latest after a second.
 async fn queued(wakes: &mut Receiver<Wake>, stop: &CancellationToken) {
     let hint = async {
         loop {

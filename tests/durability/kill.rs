@@ -57,7 +57,7 @@ async fn checkpointed(server: &Server) {
         tokio::time::sleep(Duration::from_millis(10)).await;
         let now = running(server).await;
         for (id, evaluations) in &now {
-            // A job that began meanwhile has to move, too.
+            // A job that started in the meantime has to make progress, too.
             before.entry(id.clone()).or_insert(*evaluations);
         }
         if !now.is_empty() && now.iter().all(|(id, evaluations)| *evaluations > before[id]) {

@@ -96,7 +96,7 @@ impl Server {
         self.until(job, |view| ["SUCCEEDED", "FAILED", "CANCELLED"].contains(&view["state"].as_str().unwrap())).await
     }
 
-    /// Waits until the job has made that many evaluations.
+    /// Waits until the job has made at least that many evaluations.
     pub async fn evaluated(&self, job: &str, least: u64) {
         self.until(job, |view| view["progress"]["total_evaluations"].as_u64().unwrap() >= least).await;
     }

@@ -4,14 +4,14 @@ use super::id::{ActionId, RobotId, WorldId};
 use crate::framework::execution::Problem;
 use serde::{Deserialize, Serialize};
 
-/// An execution, self-contained.
+/// A self-contained execution.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExecutionWork {
-    /// What was named in the request; shown with the runs.
+    /// Action named in the request; shown with the runs.
     pub action: ActionId,
-    /// The robot named.
+    /// Robot named in the request.
     pub robot: RobotId,
-    /// The world named.
+    /// World named in the request.
     pub world: WorldId,
     /// Goals, robot, world and method.
     pub problem: Problem,
@@ -23,6 +23,6 @@ pub struct ExecutionWork {
     pub seed: u64,
     /// Number of runs.
     pub repetitions: u32,
-    /// Slows the job down to about so many evaluations a second.
+    /// Slows the job down to about this many evaluations per second.
     pub max_evaluations_per_s: Option<f64>,
 }

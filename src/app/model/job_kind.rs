@@ -11,11 +11,11 @@ use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// What a job does.
+/// Kind of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JobKind {
-    /// Makes an action of demonstrations.
+    /// Generalizes demonstrations into an action.
     Generalization,
     /// Finds the joint trajectory with which a robot produces an action's effects.
     Execution,
@@ -24,7 +24,7 @@ pub enum JobKind {
 }
 
 impl JobKind {
-    /// The name in JSON and in the store.
+    /// Name in JSON and in the store.
     #[must_use]
     pub fn as_str(self) -> &'static str {
         match self {
@@ -47,23 +47,23 @@ pub enum CreateJob {
     Experiment(ExperimentRequest),
 }
 
-/// What a worker does.
+/// Work for a worker.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Work {
-    /// Makes an action of demonstrations; their samples never change, only they may be deleted meanwhile.
+    /// Generalizes demonstrations. Their samples never change, but they may be deleted meanwhile.
     Generalization(GeneralizationRequest),
-    /// Runs a problem.
+    /// Executes a problem.
     Execution(Box<ExecutionWork>),
-    /// Runs an experiment; its plan is stored once, with it.
+    /// Runs an experiment, whose plan is stored with the experiment.
     Experiment {
-        /// The experiment.
+        /// Id of the experiment.
         experiment: ExperimentId,
     },
 }
 
 impl Work {
-    /// What kind of job it is.
+    /// Kind of the job.
     #[must_use]
     pub fn kind(&self) -> JobKind {
         match self {
@@ -73,7 +73,7 @@ impl Work {
         }
     }
 
-    /// The demonstrations it reads while it works.
+    /// Demonstrations it reads while it runs.
     #[must_use]
     pub fn demonstrations(&self) -> &[DemonstrationId] {
         match self {

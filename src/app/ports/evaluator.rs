@@ -81,7 +81,7 @@ impl Trials<'_> {
     }
 }
 
-/// Why no trial of a batch was executed.
+/// Reasons why no trial of a batch was executed.
 #[derive(Debug, thiserror::Error)]
 pub enum EvaluatorError {
     /// The problem cannot be evaluated here.
@@ -115,9 +115,9 @@ pub trait Evaluator: Send {
 /// Opens evaluators: what the wiring plugs in.
 #[async_trait]
 pub trait Evaluators: Send + Sync {
-    /// The evaluator of a run, which may have been begun by another process.
+    /// Opens the evaluator of a run, which another process may have started.
     ///
     /// # Errors
-    /// [`EvaluatorError`] if there is none for this problem, or it is out of reach.
+    /// [`EvaluatorError`] if there is none for this problem, or it cannot be reached.
     async fn open(&self, run: RunContext<'_>) -> Result<Box<dyn Evaluator>, EvaluatorError>;
 }

@@ -1,8 +1,9 @@
-//! IET, Incrementally Evolved Trajectories (paper algorithm 1), one run of one seed, sans-I/O.
+//! IET, Incrementally Evolved Trajectories (paper algorithm 1): one run of one seed, sans-I/O.
 //!
-//! For goal j an optimiser searches U_j; a candidate is judged by the discrepancy of O_1..O_j against X_1..X_j after
-//! re-executing [`Iet::prefix`] U_1..U_j-1 and then the candidate. The best is appended. The machine says which
-//! candidates it needs ([`Iet::ask`]) and is told observation vectors ([`Iet::tell`]); it knows no world and no clock.
+//! For goal j an optimiser searches U_j. A candidate is judged by the discrepancy of O_1..O_j against X_1..X_j after
+//! re-executing [`Iet::prefix`] U_1..U_j-1 and then the candidate; the best is appended. The machine asks for
+//! candidates to be executed ([`Iet::ask`]) and takes observation vectors ([`Iet::tell`]); it knows neither world nor
+//! clock.
 //!
 //! # Invariants
 //! - Result bits depend on problem and seed only: not on batch sizes, saves and resumes, or threads.
@@ -24,16 +25,16 @@ use crate::method::whole_run::{NextTrial, Trial};
 use crate::robot::Chain;
 use crate::world::{self, World};
 
-/// The candidate by which a winner that was never executed is executed.
+/// Candidate id for executing a winner that was never executed.
 const CONFIRMATION: u64 = u64::MAX;
 
-/// A goal's winner.
+/// Winner of a goal.
 struct Hit {
     joints: Vec<f64>,
     observation: Vec<f64>,
     fitness: f64,
     provenance: Provenance,
-    /// What a winner that was never executed by the search really does.
+    /// Discrepancy of a never-executed winner once it has been executed.
     confirmed: Option<f64>,
 }
 
@@ -64,16 +65,16 @@ pub struct Iet {
     discrepancy: PartialDiscrepancy,
     search: Search,
     goal: GoalState,
-    /// As [`RunResult::painted_percent`], of the goal that ended last.
+    /// Like [`RunResult::painted_percent`], for the last finished goal.
     painted: Option<f64>,
     results: Vec<GoalResult>,
     evaluations: u64,
-    /// The m features of the goals, picked out of an observation.
+    /// Scratch space for the goals' m features of an observation.
     seen: Vec<f64>,
 }
 
 impl Iet {
-    /// A fresh run by the problem's own method.
+    /// Starts a run by the problem's own method.
     ///
     /// # Errors
     /// [`ProblemError`] if robot, world, goals and method do not fit together.
@@ -82,7 +83,7 @@ impl Iet {
         Self::begin(setup, method, seed)
     }
 
-    /// A fresh run by a method of the caller's own, in place of the one the problem names; the documentation of
+    /// Starts a run by the caller's own method in place of the one the problem names; the documentation of
     /// [`method`](crate::method) shows one.
     ///
     /// # Errors
@@ -96,7 +97,7 @@ impl Iet {
         Self::begin(Setup::new(problem, name, &method)?, method, seed)
     }
 
-    /// Goes on from a saved run of the same problem.
+    /// Resumes a saved run of the same problem.
     ///
     /// # Errors
     /// [`ProblemError`] if the state does not belong to the problem.
@@ -173,7 +174,7 @@ impl Iet {
         if let Search::WholeRun(driver) = &self.search { Some(driver) } else { None }
     }
 
-    /// Everything needed to go on with the same bits.
+    /// Complete state, from which a resumed search continues bit for bit.
     #[must_use]
     pub fn state(&self) -> IetState {
         let searching = if let Search::PerGoal { goal: Some(search), .. } = &self.search { Some(search) } else { None };
@@ -197,7 +198,7 @@ impl Iet {
         &self.setup.chain
     }
 
-    /// Whether the method plans the whole run: it names one pose at a time and may think long about each.
+    /// Whether a whole-run method is at work: it names one pose at a time and may compute long for each.
     #[must_use]
     pub fn plans_whole_run(&self) -> bool {
         self.driver().is_some()
@@ -212,21 +213,20 @@ impl Iet {
     /// The simulated world of this run: as described, or as far off as `reality` says.
     ///
     /// # Errors
-    /// [`ProblemError::World`], though a run that could be made has a world.
+    /// [`ProblemError::World`]; cannot occur for a run that could be created.
     pub fn world(&self) -> Result<Box<dyn World>, ProblemError> {
         let reality = self.setup.spec.reality.as_ref();
         Ok(world::simulated(&self.setup.world, reality, &self.setup.chain, self.seed)?)
     }
 
-    /// U_1..U_j-1, or the accepted poses of a method that plans the whole run: what must be executed, in order, before each
-    /// candidate.
+    /// Poses to execute, in order, before each candidate: U_1..U_j-1, or the accepted poses of a whole-run method.
     pub fn prefix(&self) -> impl Iterator<Item = &[f64]> {
         let accepted = self.driver().into_iter().flat_map(WholeRunDriver::prefix);
         let results = if self.plans_whole_run() { &[] } else { self.results.as_slice() };
         accepted.chain(results.iter().map(|r| r.joints.as_slice()))
     }
 
-    /// Every trial so far of a method that plans the whole run: what a later run on the same robot may begin with.
+    /// All trials so far of a whole-run method; a later run on the same robot may start from them.
     #[must_use]
     pub fn log(&self) -> &[Trial] {
         self.driver().map_or(&[], WholeRunDriver::log)
@@ -247,17 +247,17 @@ impl Iet {
         self.driver().map_or(self.results.len(), WholeRunDriver::goal)
     }
 
-    /// Number of features of the world: values an observation holds.
+    /// Number of features of the world, and so of values in an observation.
     #[must_use]
     pub fn world_features(&self) -> usize {
         self.setup.world_features
     }
 
-    /// Adds candidates of the current goal to `batch`; none when the run is finished.
+    /// Adds candidates of the current goal to `batch`; none if the run is finished.
     ///
-    /// Where a goal's winner was never executed, it is asked for once more, to see what it really does. An empty batch
-    /// of an unfinished run means that the goal has ended without execution: tell no observations, then bring the world
-    /// to the grown [`Iet::prefix`] and ask again.
+    /// If a goal's winner was never executed, it is requested once more to measure its true discrepancy. An empty batch
+    /// of an unfinished run means that the goal ended without execution: tell no observations, then bring the world to
+    /// the grown [`Iet::prefix`] and ask again.
     pub fn ask(&mut self, batch: &mut Batch) {
         match &mut self.search {
             Search::WholeRun(driver) => {
@@ -281,8 +281,8 @@ impl Iet {
         }
     }
 
-    /// Takes observations of candidates of the current goal. When one of them ends the goal, the rest are ignored and
-    /// the run moves on to the next goal, so that [`Iet::prefix`] has grown.
+    /// Takes observations of candidates of the current goal. If one of them ends the goal, the rest are ignored and the
+    /// run moves on to the next goal, so [`Iet::prefix`] has grown.
     ///
     /// # Errors
     /// [`ProblemError::NothingExecuted`] if the goal ended without any executed candidate, [`ProblemError::Infeasible`]
@@ -377,7 +377,7 @@ impl Iet {
         self.end_goal_if_over()
     }
 
-    /// Ends the goal if its search is over; a winner that was never executed is waited for.
+    /// Ends the goal if its search is over, unless a winner must first be executed.
     fn end_goal_if_over(&mut self) -> Result<(), ProblemError> {
         let Search::PerGoal { goal: Some(search), .. } = &self.search else { return Ok(()) };
         let trials = self.goal.evaluations + self.goal.failures;
@@ -399,8 +399,8 @@ impl Iet {
         Ok(())
     }
 
-    /// The winner that was never executed has now been: its goal ends. No evaluation of the search. Where the
-    /// observation is lost, what the winner really does stays unknown.
+    /// Ends the goal after the execution of its never-executed winner, which does not count as an evaluation. If the
+    /// observation is lost, the true discrepancy stays unknown.
     fn tell_confirmation(&mut self, seen: Seen<'_>) -> Result<(), ProblemError> {
         if seen == Seen::Failed {
             let (goal, trials) = (self.results.len(), self.goal.evaluations + self.goal.failures + 1);
@@ -457,7 +457,7 @@ impl Iet {
         Ok(())
     }
 
-    /// Where the run stands.
+    /// Progress of the run.
     #[must_use]
     pub fn progress(&self) -> Progress {
         Progress {
@@ -471,13 +471,13 @@ impl Iet {
         }
     }
 
-    /// Evaluations of all goals so far.
+    /// Number of evaluations over all goals so far.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    /// The finished run.
+    /// Returns the finished run.
     ///
     /// # Errors
     /// [`ProblemError::Unfinished`] before the last goal has ended.

@@ -1,18 +1,18 @@
-//! What was seen of candidates, on its way back to the run: flat and reused, as batches are.
+//! Observations of candidates on their way back to the run; flat and reused, like batches.
 
 use crate::method::per_goal::Provenance;
 
-/// What was seen of a candidate.
+/// Result of executing a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Seen<'a> {
     /// It was executed and observed: all features of the world.
     Observed(&'a [f64]),
     /// It was executed, but a value is missing or not finite. An evaluation all the same.
     Lost,
-    /// It was refused before it began: not an evaluation.
+    /// Rejected before it started: does not count as an evaluation.
     Failed,
-    /// Nobody knows whether it was executed. The run learns nothing and goes on asking for it once it is resumed, so
-    /// whoever drives the run must stop there.
+    /// Unknown whether it was executed. The run learns nothing and asks for it again once it is resumed, so whoever
+    /// drives the run must stop there.
     Unknown,
 }
 
@@ -48,13 +48,13 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// None yet, for candidates of `genes` genes and observations of `features` values, executed as `provenance` says.
+    /// Empty, for candidates of `genes` genes and observations of `features` values, executed as `provenance` says.
     #[must_use]
     pub fn new(genes: usize, features: usize, provenance: Provenance) -> Self {
         Self { genes, features, provenance, ids: Vec::new(), fates: Vec::new(), joints: Vec::new(), values: Vec::new() }
     }
 
-    /// Forgets all.
+    /// Removes all observations.
     pub fn clear(&mut self) {
         self.ids.clear();
         self.fates.clear();
@@ -62,18 +62,18 @@ impl Observations {
         self.values.clear();
     }
 
-    /// Candidate `id` was executed at `joints`; the caller writes what was seen into the returned row.
+    /// Records that candidate `id` was executed at `joints`; the caller writes the observation into the returned row.
     ///
     /// # Panics
-    /// If `joints` has another length than genes.
+    /// If `joints` does not have `genes` values.
     pub fn observed(&mut self, id: u64, joints: &[f64]) -> &mut [f64] {
         self.push(id, joints, Fate::Executed)
     }
 
-    /// Candidate `id` could not be executed at `joints`.
+    /// Records that candidate `id` could not be executed at `joints`.
     ///
     /// # Panics
-    /// If `joints` has another length than genes.
+    /// If `joints` does not have `genes` values.
     pub fn failed(&mut self, id: u64, joints: &[f64]) {
         self.push(id, joints, Fate::Failed);
     }
@@ -110,7 +110,7 @@ impl Observations {
         self.provenance
     }
 
-    /// Id, joints and fate of each candidate.
+    /// Iterates over id, joints and result of each candidate.
     pub fn iter(&self) -> impl Iterator<Item = (u64, &[f64], Seen<'_>)> {
         let rows = self.joints.chunks_exact(self.genes).zip(self.values.chunks_exact(self.features));
         self.ids.iter().zip(&self.fates).zip(rows).map(|((&id, &fate), (joints, values))| {

@@ -1,4 +1,4 @@
-//! Drives a run in a simulated world, slice by slice.
+//! Runs an execution in a simulated world, slice by slice.
 
 use super::error::ProblemError;
 use super::iet::Iet;
@@ -17,11 +17,11 @@ pub fn simulated_world(problem: &Problem, chain: &Chain, seed: u64) -> Result<Bo
     Ok(world::simulated(&problem.world, problem.execution.reality.as_ref(), chain, seed)?)
 }
 
-/// Candidates asked for at once.
+/// Number of candidates requested at once.
 const BATCH: u64 = 64;
 
-/// Makes up to `budget` evaluations of `iet` in `world`, which is brought to the run's prefix first. The caller slices
-/// a run to save it, cancel it or report on it; slicing changes no bit of the result.
+/// Makes up to `budget` evaluations of `iet` in `world`, which is first brought to the run's prefix. The caller slices
+/// a run to save it, cancel it or report on it; slicing does not change a bit of the result.
 ///
 /// # Errors
 /// [`ProblemError`] if a goal ends without any executed candidate.
@@ -50,13 +50,13 @@ pub fn simulate(iet: &mut Iet, world: &mut dyn World, budget: u64) -> Result<Pro
     Ok(iet.progress())
 }
 
-/// Evaluations between two questions whether to go on.
+/// Number of evaluations between two calls of `go_on`.
 const SLICE: u64 = 1024;
 
-/// As [`run`]; none if `go_on` answers no before the end.
+/// Like [`run`]; `None` if `go_on` returns false before the end.
 ///
 /// # Errors
-/// As [`run`].
+/// As for [`run`].
 pub fn run_while(problem: &Problem, seed: u64, go_on: impl Fn() -> bool) -> Result<Option<RunResult>, ProblemError> {
     let mut iet = Iet::new(problem, seed)?;
     let mut world = iet.world()?;
@@ -68,10 +68,10 @@ pub fn run_while(problem: &Problem, seed: u64, go_on: impl Fn() -> bool) -> Resu
     Ok(None)
 }
 
-/// One whole run of `problem` in its world.
+/// Executes a whole run of `problem` in its world.
 ///
 /// # Errors
-/// As [`Iet::new`] and [`simulate`].
+/// As for [`Iet::new`] and [`simulate`].
 pub fn run(problem: &Problem, seed: u64) -> Result<RunResult, ProblemError> {
     let mut iet = Iet::new(problem, seed)?;
     let mut world = iet.world()?;

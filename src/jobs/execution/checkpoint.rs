@@ -1,4 +1,4 @@
-//! What an execution job needs to go on: which repetition, and where in it.
+//! Checkpoint of an execution job: the current repetition and its state.
 
 use crate::framework::execution::IetState;
 use serde::{Deserialize, Serialize};
@@ -13,26 +13,26 @@ pub(super) struct Checkpoint {
     version: u32,
     /// Build that wrote it: another one may compute other bits.
     build: String,
-    /// The present repetition; those before it are stored as runs.
+    /// Current repetition; earlier ones are stored as runs.
     pub(super) repetition: u32,
-    /// Evaluations of the repetitions before it.
+    /// Number of evaluations in earlier repetitions.
     pub(super) evaluations_before: u64,
-    /// State of the present repetition; `None` at its beginning.
+    /// State of the current repetition; `None` at its start.
     pub(super) iet: Option<IetState>,
 }
 
-/// Version of the program and its target: the same ones compute the same bits.
+/// Version of the program and its target: equal builds compute equal bits.
 fn build() -> String {
     format!("{} {}", env!("CARGO_PKG_VERSION"), std::env::consts::ARCH)
 }
 
 impl Checkpoint {
-    /// A job at the beginning of `repetition`.
+    /// Checkpoint of a job at the start of `repetition`.
     pub(super) fn at_start_of(repetition: u32, evaluations_before: u64) -> Self {
         Self { version: VERSION, build: build(), repetition, evaluations_before, iet: None }
     }
 
-    /// The same job, inside the repetition.
+    /// Checkpoint within the repetition.
     pub(super) fn within(&self, iet: IetState) -> Self {
         Self { iet: Some(iet), ..self.clone() }
     }

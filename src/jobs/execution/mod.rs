@@ -1,11 +1,11 @@
-//! An execution: one run per repetition, in slices, with checkpoints between them.
+//! Execution jobs: one run per repetition, computed in slices with checkpoints in between.
 //!
 //! # Invariants
-//! - What is written together is consistent: ended runs, progress, checkpoint and the events about them are one
-//!   transaction; a job that goes on after it computes the bits it would have computed without the stop.
-//! - Pause and cancel are seen after each write, so at the latest after the time between two checkpoints. An evaluator
-//!   that takes longer is interrupted.
-//! - Which evaluator carries out the trials is the wiring's choice: nothing here knows a simulation.
+//! - Everything written together is consistent: finished runs, progress, checkpoint and their events are one
+//!   transaction. A job that resumes from it computes the bits it would have computed without the stop.
+//! - Pause and cancel are noticed after each write, and therefore at the latest after one checkpoint interval. An
+//!   evaluator that takes longer is interrupted.
+//! - The wiring chooses the evaluator that executes the trials; nothing here knows a simulation.
 
 mod checkpoint;
 mod record;
@@ -39,7 +39,7 @@ impl From<ProblemError> for Stop {
     }
 }
 
-/// Runs the job to its end, or until it is asked to rest.
+/// Runs the job to its end, or until it is asked to stop.
 pub(in crate::jobs) async fn run(
     claimed: &ClaimedJob,
     evaluators: &dyn Evaluators,
@@ -59,7 +59,7 @@ struct RunningExecution<'a> {
     problem: Arc<Problem>,
     saved: Checkpoint,
     report: Report,
-    /// Ended, but not written yet.
+    /// Finished runs that are not written yet.
     runs: Vec<NewRun>,
     events: Vec<EventData>,
     written: Option<Instant>,
@@ -105,7 +105,7 @@ impl<'a> RunningExecution<'a> {
         Ok(self.claimed.succeed(step).await?)
     }
 
-    /// The present repetition from where it was saved, or from its seed, with its evaluator.
+    /// Starts the current repetition, with its evaluator, from its checkpoint or else from its seed.
     async fn begin(&mut self) -> Result<Search, Stop> {
         let seed = self.work.seed + u64::from(self.saved.repetition);
         let (problem, state) = (Arc::clone(&self.problem), self.saved.iet.take());
@@ -113,7 +113,7 @@ impl<'a> RunningExecution<'a> {
             if let Some(state) = state {
                 match Iet::resume(&problem, state) {
                     Ok(iet) => return Ok(iet),
-                    Err(error) => tracing::warn!(error = %error, "a checkpoint is not used; the run starts again"),
+                    Err(error) => tracing::warn!(error = %error, "ignored a checkpoint; the run starts again"),
                 }
             }
             Iet::new(&problem, seed)
@@ -170,7 +170,7 @@ impl<'a> RunningExecution<'a> {
         }
     }
 
-    /// One slice on a thread of its own: searches think long, and simulated worlds compute.
+    /// Runs one slice on its own thread, because searches and simulated worlds may compute for long.
     async fn slice(&self, mut search: Search) -> Result<(Search, Result<SliceEnd, SliceError>), Stop> {
         let mut interrupt = self.claimed.interrupt();
         let runtime = Handle::current();
@@ -197,7 +197,7 @@ impl<'a> RunningExecution<'a> {
         elapsed >= every || has_news || self.claimed.is_interrupted()
     }
 
-    /// Writes everything there is to write, then does what was asked for meanwhile.
+    /// Writes everything that is pending, then obeys requests that arrived in the meantime.
     async fn write(&mut self, shown: JobProgress, checkpoint: &Checkpoint) -> Result<(), Stop> {
         let state = self.keep(shown, checkpoint).await?;
         self.claimed.settle(state).await
@@ -218,7 +218,7 @@ impl<'a> RunningExecution<'a> {
         Advance { runs: std::mem::take(&mut self.runs), events: std::mem::take(&mut self.events), ..Advance::default() }
     }
 
-    /// Turns the finished repetition into a run and goes to the next one.
+    /// Turns the finished repetition into a run and moves on to the next one.
     async fn end(&mut self, search: Search) -> Result<(), Stop> {
         let ports = &self.claimed.ports;
         let marks = Marks { run: ports.ids.uuid(), trajectory: ports.ids.uuid(), created_at: ports.clock.now() };

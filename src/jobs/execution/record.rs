@@ -125,7 +125,7 @@ fn goals(result: &RunResult, work: &ExecutionWork) -> Vec<RunGoal> {
 /// # Errors
 /// A sentence with the number and the remedy.
 pub(super) fn check_finite(goal: u32, discrepancy: f64, observation: &[f64]) -> Result<(), String> {
-    let remedy = "its squares must stay below 1e308: give demonstrations and the world in a unit with smaller numbers";
+    let remedy = "its squares must stay below 1e308: use a unit with smaller numbers for demonstrations and world";
     if let Some(value) = observation.iter().find(|value| !value.is_finite()) {
         return Err(format!("an observation of goal {goal} is not finite ({value}): {remedy}"));
     }

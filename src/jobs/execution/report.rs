@@ -1,4 +1,4 @@
-//! How far an execution is, in the words of the API.
+//! Progress of an execution, in the terms of the API.
 
 use super::record::distance;
 use crate::app::model::{GoalProgress, JobProgress, TrialProgress};
@@ -12,11 +12,11 @@ use std::sync::Arc;
 pub(super) struct Report {
     problem: Arc<Problem>,
     repetitions: u32,
-    /// Present repetition, from 0.
+    /// Current repetition, from 0.
     repetition: u32,
-    /// Evaluations of the repetitions before it.
+    /// Number of evaluations in earlier repetitions.
     evaluations_before: u64,
-    /// Trials of the present repetition, if the method remembers them.
+    /// Trials of the current repetition, if the method records them.
     trials: Vec<TrialProgress>,
 }
 
@@ -26,7 +26,7 @@ impl Report {
         Self { problem, repetitions, repetition: 0, evaluations_before: 0, trials: Vec::new() }
     }
 
-    /// A repetition begins or goes on; `log` holds the trials it has made already.
+    /// Starts or continues a repetition; `log` contains the trials it has already made.
     pub(super) fn begin(&mut self, repetition: u32, evaluations_before: u64, log: &[Trial]) {
         self.repetition = repetition;
         self.evaluations_before = evaluations_before;
@@ -63,7 +63,7 @@ impl Report {
         }
     }
 
-    /// A job whose present repetition stands at `progress`.
+    /// Progress of the job while its current repetition is at `progress`.
     pub(super) fn progress(&self, progress: &Progress) -> JobProgress {
         // A method that plans the whole run goes back and forth between goals: the number of goals tried is its measure.
         let tried = self.trials.iter().map(|trial| trial.goal).collect::<BTreeSet<u32>>().len();

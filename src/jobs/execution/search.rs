@@ -1,11 +1,11 @@
-//! One repetition at work: ask, check, evaluate, tell, over the Evaluator port.
+//! One running repetition: ask, check, evaluate, tell, through the Evaluator port.
 //!
 //! # Invariants
-//! - Slices change no bit: a batch that was asked for and not evaluated, for the slice was interrupted, is evaluated by
-//!   the next one.
-//! - A real trial outside the joint limits never reaches the evaluator: it is told as failed.
-//! - The search is told nothing about a trial whose fate is unknown. Its saved state asks for that trial again, which
-//!   only a person may cause.
+//! - Slicing does not change a bit: a batch whose slice was interrupted before its evaluation is evaluated by the next
+//!   one.
+//! - A real trial outside the joint limits never reaches the evaluator; the search is told that it failed.
+//! - The search is told nothing about a trial whose outcome is unknown. Its saved state asks for that trial again,
+//!   which only a person may cause.
 
 use crate::app::ports::{Evaluator, EvaluatorError, TrialId, Trials};
 use crate::framework::execution::{Iet, Observations, ProblemError, Seen};
@@ -13,10 +13,10 @@ use crate::framework::method::per_goal::{Batch, Provenance};
 use std::collections::BTreeSet;
 use tokio::time::Instant;
 
-/// Why a slice ended.
+/// Reason why a slice ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum SliceEnd {
-    /// Its time is over, or it was interrupted.
+    /// Its time is up, or it was interrupted.
     Due,
     /// Every goal has ended.
     Finished,
@@ -24,7 +24,7 @@ pub(super) enum SliceEnd {
     Unknown(TrialId),
 }
 
-/// Why a slice failed.
+/// Reasons why a slice failed.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum SliceError {
     #[error(transparent)]
@@ -39,7 +39,7 @@ pub(super) struct Search {
     evaluator: Box<dyn Evaluator>,
     repetition: u32,
     prefix: Vec<Vec<f64>>,
-    /// Candidates asked for and not told.
+    /// Candidates asked for whose outcome has not been told.
     asked: Batch,
     /// Those of them the evaluator gets.
     checked: Batch,
@@ -80,7 +80,7 @@ impl Search {
                     batch: &self.checked,
                 };
                 tokio::select! {
-                    // What can be answered at once is answered, whatever else is asked for.
+                    // A request that can be answered at once takes precedence.
                     biased;
                     evaluated = self.evaluator.evaluate(trials, &mut self.seen) => evaluated?,
                     () = &mut interrupted => return Ok(SliceEnd::Due),

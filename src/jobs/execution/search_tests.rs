@@ -15,7 +15,7 @@ use tokio::time::Instant;
 
 const SEED: u64 = 3;
 
-/// What outlives a process: which trials were begun, how often each was executed, and what was seen.
+/// State that survives the process: trials started, how often each was executed, and the observations.
 #[derive(Default)]
 struct Journal {
     begun: BTreeSet<TrialId>,
@@ -128,7 +128,7 @@ async fn driven(problem: &Problem, journal: &Arc<Mutex<Journal>>, dies_every: u6
                 iet = Iet::resume(problem, search.iet.state()).unwrap();
             }
             SliceEnd::Due => {
-                // Killed: memory is lost, what was told since the checkpoint is asked for again.
+                // Killed: memory is lost, and everything told since the checkpoint is asked for again.
                 let is_hanging = journal.lock().unwrap().is_hanging();
                 let state = if is_hanging { saved } else { search.iet.state() };
                 iet = Iet::resume(problem, state).unwrap();
