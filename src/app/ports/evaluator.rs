@@ -101,8 +101,9 @@ pub trait Evaluator: Send {
     /// Whether trials are simulated or real. Real ones are checked against the joint limits before they are handed over.
     fn provenance(&self) -> Provenance;
 
-    /// Most candidates per call, at least 1. A robot takes one: of several, some may be wasted, because another one ends
-    /// the goal, and if one stays unknown, a later one may end the goal first and change the run's bits.
+    /// Maximum number of candidates per call, at least 1. A robot takes one: of several, some may be wasted, because
+    /// another one ends the goal; and if one stays unknown, a later one may end the goal first and change the run's
+    /// bits.
     fn most_at_once(&self) -> usize;
 
     /// Executes `trials` and writes the outcome of each one into `seen`; a trial left out counts as unknown.
