@@ -17,7 +17,7 @@ ALL := --locked --workspace
 # Runs a command; all it said is shown if it fails, its last line if it does not.
 quietly = @echo '$(1)'; said=$$($(1) 2>&1) || { printf '%s\n' "$$said" >&2; exit 1; }; tail -n 1 <<<"$$said"
 
-.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-docs debug-binary fetch test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
+.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-clients check-docs debug-binary fetch test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
 
 help: ## this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 16
@@ -56,7 +56,7 @@ test: setup-test ## every gate and every test
 	@$(MAKE) --no-print-directory test-examples
 	@$(MAKE) --no-print-directory test-e2e
 
-check: check-rust check-web check-proto image-lint ## formatting, lints, documentation, dependencies
+check: check-rust check-web check-proto check-clients image-lint ## formatting, lints, documentation, dependencies
 
 check-rust: fetch
 	cargo fmt --all --check || { echo 'the code is not formatted: run `make fmt`' >&2; exit 1; }
@@ -65,6 +65,9 @@ check-rust: fetch
 	RUSTDOCFLAGS="-D warnings" cargo doc $(ALL) --lib --examples --no-deps --document-private-items --quiet
 	$(call quietly,$(TOOLS)/cargo-deny --offline check --hide-inclusion-graph bans licenses sources)
 	$(call quietly,$(TOOLS)/cargo-shear)
+
+check-clients: ## a Python client from the API's description
+	$(TOOLS)/python tests/python_client.py web/openapi.json
 
 check-web: web/node_modules/.package-lock.json
 	cd web && npm run --silent check:schema && npm run --silent typecheck && npm run --silent lint

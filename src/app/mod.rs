@@ -13,12 +13,13 @@ mod bench;
 pub mod demonstrations;
 pub mod experiments;
 pub mod jobs;
+pub mod json_pointer;
 pub mod model;
 pub mod ports;
 pub mod recognitions;
 pub mod robots;
 pub mod runs;
-pub mod shape;
+pub mod strict_json;
 pub mod trajectories;
 pub mod worlds;
 

@@ -63,7 +63,8 @@ pub struct InterpolateParameters {
 /// Points of the curve through the goals (paper eq. 3).
 #[utoipa::path(get, path = "/actions/{id}:interpolate", operation_id = "interpolateAction", tag = "actions",
     params(("id" = ActionId, Path), InterpolateParameters),
-    responses((status = 200, description = "The curve.", body = Interpolation)))]
+    responses((status = 200, description = "The curve.", body = Interpolation),
+        (status = 409, description = "The goals do not define a curve.")))]
 pub async fn interpolate(
     State(app): State<App>,
     Path(id): Path<ActionId>,

@@ -106,7 +106,8 @@ pub async fn report(
 /// The samples as a file: `csv` (one stream only) or `json`.
 #[utoipa::path(get, path = "/demonstrations/{id}:export", operation_id = "exportDemonstration",
     tag = "demonstrations", params(("id" = DemonstrationId, Path), ExportParameters),
-    responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream")))]
+    responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream"),
+        (status = 409, description = "Several streams do not fit into one CSV file.")))]
 pub async fn export(
     State(app): State<App>,
     Path(id): Path<DemonstrationId>,

@@ -97,7 +97,8 @@ pub struct CompareParameters {
 /// Two cells seed by seed: mean difference with its 95 % interval, and Wilcoxon's signed rank test.
 #[utoipa::path(get, path = "/experiments/{id}:compare", operation_id = "compareExperiment", tag = "experiments",
     params(("id" = ExperimentId, Path), CompareParameters),
-    responses((status = 200, description = "The comparison.", body = ExperimentComparison)))]
+    responses((status = 200, description = "The comparison.", body = ExperimentComparison),
+        (status = 409, description = "No seed has finished in both cells yet.")))]
 pub async fn compare(
     State(app): State<App>,
     Path(id): Path<ExperimentId>,

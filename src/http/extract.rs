@@ -1,16 +1,15 @@
 //! Extractors whose rejections are problems: axum's own answer in plain text.
 
 use super::problem::Problem;
-use super::{Settings, body, strict};
+use super::{Settings, body};
 use crate::app::model::{AppError, ErrorKind};
-use crate::app::shape;
+use crate::app::strict_json;
 use axum::extract::{FromRef, FromRequest, FromRequestParts, Request};
 use axum::http::header::{CONTENT_TYPE, IF_MATCH};
 use axum::http::request::Parts;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 /// A JSON body, in or out.
@@ -30,7 +29,7 @@ where
         }
         let limit = Arc::<Settings>::from_ref(state).body_limit_bytes;
         let bytes = body::read(request, limit).await?;
-        parse(&bytes).map(Self).map_err(Problem::from)
+        strict_json::parse(&bytes).map(Self).map_err(Problem::from)
     }
 }
 
@@ -125,90 +124,9 @@ fn is_json(media_type: &str) -> bool {
     essence == "application/json" || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
 
-fn parse<T: DeserializeOwned + Serialize>(bytes: &[u8]) -> Result<T, AppError> {
-    strict::check(bytes).map_err(|(path, error)| refusal(pointer(&path), &error))?;
-    let mut json = serde_json::Deserializer::from_slice(bytes);
-    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-        let pointer = pointer(error.path());
-        refusal(pointer, error.inner())
-    })?;
-    json.end().map_err(|error| refusal(String::new(), &error))?;
-    let sent = serde_json::from_slice(bytes).map_err(|error| refusal(String::new(), &error))?;
-    shape::check("", &sent, &serde_json::to_value(&value).map_err(AppError::internal)?)?;
-    Ok(value)
-}
-
-/// Text that is no JSON is malformed; JSON of another shape is invalid, at its place.
-fn refusal(pointer: String, error: &serde_json::Error) -> AppError {
-    match error.classify() {
-        serde_json::error::Category::Data => AppError::field(pointer, "invalid_value", error.to_string()),
-        _ => AppError::new(ErrorKind::Malformed, "invalid_json", format!("the body is no JSON: {error}")),
-    }
-}
-
-/// RFC 6901.
-fn pointer(path: &serde_path_to_error::Path) -> String {
-    use serde_path_to_error::Segment;
-    path.iter().fold(String::new(), |mut pointer, segment| {
-        let written = match segment {
-            Segment::Seq { index } => write!(pointer, "/{index}"),
-            Segment::Map { key } => write!(pointer, "/{}", key.replace('~', "~0").replace('/', "~1")),
-            Segment::Enum { .. } | Segment::Unknown => Ok(()),
-        };
-        debug_assert!(written.is_ok(), "writing to a string cannot fail");
-        pointer
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[derive(Debug, serde::Deserialize, Serialize, PartialEq)]
-    #[serde(deny_unknown_fields)]
-    struct Outer {
-        rows: Vec<Inner>,
-    }
-    #[derive(Debug, serde::Deserialize, Serialize, PartialEq)]
-    struct Inner {
-        count: u8,
-    }
-
-    #[test]
-    fn a_wrong_value_is_invalid_and_told_by_its_pointer() {
-        let error = parse::<Outer>(br#"{"rows": [{"count": 1}, {"count": 300}]}"#).unwrap_err();
-        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/rows/1/count"));
-        let error = parse::<Outer>(br#"{"rows": [{"count": 1}, [2]]}"#).unwrap_err();
-        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/rows/1"));
-        let error = parse::<Outer>(br#"{"rows": [], "ro/ws": 1}"#).unwrap_err();
-        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/ro~1ws"));
-    }
-
-    #[test]
-    fn text_that_is_no_json_and_duplicate_keys_are_refused() {
-        for wrong in ["", "{", "{\"rows\": []} x", "\u{feff}{}"] {
-            assert_eq!(parse::<Outer>(wrong.as_bytes()).unwrap_err().kind, ErrorKind::Malformed, "{wrong:?}");
-        }
-    }
-
-    #[test]
-    fn what_could_be_read_in_two_ways_is_refused_at_its_place() {
-        let place = |text: &str| {
-            let error = parse::<serde_json::Value>(text.as_bytes()).unwrap_err();
-            assert_eq!((error.kind, error.details.len()), (ErrorKind::Invalid, 1), "{text}");
-            assert!(!error.message.starts_with(':'), "{}", error.message);
-            error.details[0].pointer.clone()
-        };
-        assert_eq!(place(r#"{"fixed": {"a": 1, "b": {}, "a": 2}}"#), "/fixed");
-        assert_eq!(place(r#"{"rows": [], "rows": []}"#), "");
-        for wrong in ["[]", "null", "1", "-1", "1.5", "true", "\"text\"", "[[{}]]"] {
-            assert_eq!(place(wrong), "");
-        }
-        let nested = |depth: usize| format!("{{\"a\":{}{}}}", "[".repeat(depth), "]".repeat(depth));
-        parse::<serde_json::Value>(nested(strict::MAX_DEPTH - 1).as_bytes()).unwrap();
-        assert!(place(&nested(strict::MAX_DEPTH)).starts_with("/a/0/0"));
-        assert!(place(&nested(100_000)).starts_with("/a/0/0"));
-    }
 
     #[test]
     fn content_types() {

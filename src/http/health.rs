@@ -30,7 +30,8 @@ pub async fn livez() -> Json<Health> {
 
 /// Whether requests will be answered and jobs worked on.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "service", security(()),
-    responses((status = 200, description = "Requests are answered and jobs are worked on.", body = Health)))]
+    responses((status = 200, description = "Requests are answered and jobs are worked on.", body = Health),
+        (status = 503, description = "The service is starting or stopping.")))]
 pub async fn readyz(State(app): State<App>) -> Result<Json<Health>, Problem> {
     if !app.is_ready() {
         return Err(AppError::unavailable("not_ready", "the service is starting or stopping").into());

@@ -96,21 +96,27 @@ pub async fn get(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<J
 
 /// Asks a job to rest at its next checkpoint.
 #[utoipa::path(post, path = "/jobs/{id}:pause", operation_id = "pauseJob", tag = "jobs",
-    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
+    params(("id" = JobId, Path)),
+    responses((status = 200, description = "The job.", body = JobView),
+        (status = 409, description = "It cannot be paused in its present state.")))]
 pub async fn pause(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.pause_job(&id).await?))
 }
 
 /// Lets a paused job go on.
 #[utoipa::path(post, path = "/jobs/{id}:resume", operation_id = "resumeJob", tag = "jobs",
-    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
+    params(("id" = JobId, Path)),
+    responses((status = 200, description = "The job.", body = JobView),
+        (status = 409, description = "It is not paused.")))]
 pub async fn resume(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.resume_job(&id).await?))
 }
 
 /// Asks a job to end without a result; finished runs are kept.
 #[utoipa::path(post, path = "/jobs/{id}:cancel", operation_id = "cancelJob", tag = "jobs",
-    params(("id" = JobId, Path)), responses((status = 200, description = "The job.", body = JobView)))]
+    params(("id" = JobId, Path)),
+    responses((status = 200, description = "The job.", body = JobView),
+        (status = 409, description = "It ended already.")))]
 pub async fn cancel(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.cancel_job(&id).await?))
 }

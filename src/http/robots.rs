@@ -38,15 +38,16 @@ pub async fn get(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Json
 /// The URDF of a robot, as it was given.
 #[utoipa::path(get, path = "/robots/{id}/urdf", operation_id = "getRobotUrdf", tag = "robots",
     params(("id" = RobotId, Path)),
-    responses((status = 200, description = "The URDF.", body = String, content_type = "application/xml")))]
+    responses((status = 200, description = "The URDF.", body = String, content_type = "text/xml")))]
 pub async fn urdf(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Response, Problem> {
     let urdf = app.robot_urdf(&id).await?;
-    Ok(([(CONTENT_TYPE, "application/xml; charset=utf-8")], urdf).into_response())
+    Ok(([(CONTENT_TYPE, "text/xml; charset=utf-8")], urdf).into_response())
 }
 
 /// Deletes a robot that no job names.
 #[utoipa::path(delete, path = "/robots/{id}", operation_id = "deleteRobot", tag = "robots",
-    params(("id" = RobotId, Path)), responses((status = 204, description = "Deleted.")))]
+    params(("id" = RobotId, Path)),
+    responses((status = 204, description = "Deleted."), (status = 409, description = "A job uses it.")))]
 pub async fn delete(State(app): State<App>, Path(id): Path<RobotId>) -> Result<StatusCode, Problem> {
     app.delete_robot(&id).await?;
     Ok(StatusCode::NO_CONTENT)

@@ -20,7 +20,8 @@ pub async fn get(State(app): State<App>, Path(id): Path<TrajectoryId>) -> Result
 /// The trajectory as a file: `csv`, `json` or `ros2` (trajectory_msgs/JointTrajectory).
 #[utoipa::path(get, path = "/trajectories/{id}:export", operation_id = "exportTrajectory", tag = "trajectories",
     params(("id" = TrajectoryId, Path), ExportParameters),
-    responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream")))]
+    responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream"),
+        (status = 409, description = "This version plans it differently: run the job again.")))]
 pub async fn export(
     State(app): State<App>,
     Path(id): Path<TrajectoryId>,

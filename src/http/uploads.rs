@@ -4,6 +4,7 @@
 
 use super::answer::created;
 use super::extract::{Query, unsupported};
+use super::openapi::Binary;
 use super::problem::Problem;
 use super::{Settings, body};
 use crate::app::App;
@@ -63,9 +64,8 @@ pub struct UploadForm {
 /// Uploads a demonstration; what makes it unusable is told by stream, row and column.
 #[utoipa::path(post, path = "/demonstrations", operation_id = "uploadDemonstration", tag = "demonstrations",
     params(UploadParameters),
-    request_body(description = "The file, or a form with several.", content(
-        (String = "application/octet-stream"), (String = "text/csv"), (String = "text/plain"),
-        (serde_json::Value = "application/json"), (UploadForm = "multipart/form-data"))),
+    request_body(description = "The file, whatever its content type, or a form with several.", content(
+        (Binary = "application/octet-stream"), (UploadForm = "multipart/form-data"))),
     responses((status = 201, description = "The demonstration.", body = DemonstrationView)))]
 pub async fn create(
     State(app): State<App>,

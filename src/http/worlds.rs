@@ -36,7 +36,8 @@ pub async fn get(State(app): State<App>, Path(id): Path<WorldId>) -> Result<Json
 
 /// Deletes a world that no job names.
 #[utoipa::path(delete, path = "/worlds/{id}", operation_id = "deleteWorld", tag = "worlds",
-    params(("id" = WorldId, Path)), responses((status = 204, description = "Deleted.")))]
+    params(("id" = WorldId, Path)),
+    responses((status = 204, description = "Deleted."), (status = 409, description = "A job uses it.")))]
 pub async fn delete(State(app): State<App>, Path(id): Path<WorldId>) -> Result<StatusCode, Problem> {
     app.delete_world(&id).await?;
     Ok(StatusCode::NO_CONTENT)

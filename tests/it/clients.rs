@@ -15,6 +15,7 @@ use prost_reflect::bytes::{Buf as _, BufMut as _};
 use prost_reflect::{DynamicMessage, MethodDescriptor};
 use reqwest::{Method, RequestBuilder};
 use serde_json::Value;
+use std::sync::LazyLock;
 use tonic::Status;
 use tonic::codec::{Codec, DecodeBuf, Decoder, EncodeBuf, Encoder};
 use tonic::codegen::http::uri::PathAndQuery;
@@ -86,13 +87,37 @@ impl Http {
     }
 }
 
-/// Sends a request and reads the whole answer.
+/// Sends a request and reads the whole answer, whose status the OpenAPI document must list.
 pub async fn send(request: RequestBuilder) -> Answer {
-    let response = request.send().await.unwrap();
+    let (client, request) = request.build_split();
+    let request = request.unwrap();
+    let (method, path) = (request.method().clone(), request.url().path().to_owned());
+    let response = client.execute(request).await.unwrap();
     let (status, headers) = (response.status().as_u16(), response.headers().clone());
+    let documented = documented(&method, &path);
+    let known = documented.as_ref().is_none_or(|statuses| statuses.contains(&status.to_string()));
+    assert!(known, "{method} {path}: {status} is not among {documented:?}");
     let text = response.text().await.unwrap();
     let json = serde_json::from_str(&text).unwrap_or_default();
     Answer { status, headers, text, json }
+}
+
+/// The statuses that the OpenAPI document lists for a request; `None` if it has no such operation.
+fn documented(method: &Method, path: &str) -> Option<Vec<String>> {
+    static DOCUMENT: LazyLock<Value> = LazyLock::new(cgda::http::document);
+    let segments = |path: &str| -> Vec<String> {
+        let parts = path.replacen(':', "/:", 1);
+        parts.split('/').map(str::to_owned).collect()
+    };
+    let given = segments(path);
+    let fits = |documented: &str| {
+        let documented = segments(documented);
+        documented.len() == given.len()
+            && documented.iter().zip(&given).all(|(part, segment)| part == segment || part == "{id}")
+    };
+    let item = DOCUMENT["paths"].as_object().unwrap().iter().find(|(path, _)| fits(path))?.1;
+    let responses = item.get(method.as_str().to_lowercase())?["responses"].as_object().unwrap();
+    Some(responses.keys().cloned().collect())
 }
 
 /// Adds the token to the metadata.

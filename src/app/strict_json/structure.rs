@@ -1,18 +1,18 @@
-//! What is refused in a JSON body before its fields are looked at: keys that stand twice, deep nesting, anything but
-//! an object. Serde takes the last of two keys of a map, and a list for an object; which was meant cannot be told.
+//! Rejects duplicate keys, deep nesting and anything but an object before deserialization; serde would silently keep
+//! the last duplicate and read a list as an object.
 
 use serde::de::{DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_path_to_error::{Path, Track};
 use std::collections::HashSet;
 use std::fmt;
 
-/// Deepest nesting of objects and lists.
+/// Maximum nesting of objects and lists.
 pub const MAX_DEPTH: usize = 32;
 
-/// Reads the body through.
+/// Checks the whole body.
 ///
 /// # Errors
-/// The place and what is wrong there, or where it is no JSON at all.
+/// The place and what is wrong there; the same for text that is not JSON.
 pub fn check(bytes: &[u8]) -> Result<(), (Path, serde_json::Error)> {
     let mut json = serde_json::Deserializer::from_slice(bytes);
     let mut track = Track::new();
@@ -20,7 +20,7 @@ pub fn check(bytes: &[u8]) -> Result<(), (Path, serde_json::Error)> {
     Place { depth: 0 }.deserialize(tracked).map_err(|error| (track.path(), error))
 }
 
-/// A value inside so many objects and lists.
+/// A value, `depth` objects and lists below the top.
 #[derive(Clone, Copy)]
 struct Place {
     depth: usize,

@@ -1,23 +1,26 @@
-//! A document and what was understood of it have the same shape. Serde also takes a list for an object, by position,
-//! and a number for the name of a variant; nobody who writes one means it.
+//! Rejects JSON that serde accepts but no client means: an array in place of an object, or a number in place of a
+//! variant's name.
 
+use crate::app::json_pointer;
 use crate::app::model::AppError;
 use serde_json::Value;
 
-/// Compares what was sent with what was understood, written out again. A name that stands for an object with its
-/// defaults is no other shape; what is absent on either side is not compared.
+/// Compares what was sent with what was understood, serialized again. A name may stand for an object with its defaults;
+/// what is absent on either side is not compared.
 ///
 /// # Errors
 /// The first place below `pointer` with another shape.
 pub fn check(pointer: &str, sent: &Value, understood: &Value) -> Result<(), AppError> {
     match (sent, understood) {
         (Value::Object(sent), Value::Object(understood)) => sent.iter().try_for_each(|(key, value)| {
-            let below = || format!("{pointer}/{}", key.replace('~', "~0").replace('/', "~1"));
+            let below = || json_pointer::join(pointer, key);
             understood.get(key).map_or(Ok(()), |understood| check(&below(), value, understood))
         }),
         (Value::Array(sent), Value::Array(understood)) => {
             let mut pairs = sent.iter().zip(understood).enumerate();
-            pairs.try_for_each(|(index, (sent, understood))| check(&format!("{pointer}/{index}"), sent, understood))
+            pairs.try_for_each(|(index, (sent, understood))| {
+                check(&json_pointer::join(pointer, index), sent, understood)
+            })
         }
         (Value::Null, _) | (_, Value::Null) | (Value::String(_), Value::Object(_)) => Ok(()),
         (sent, understood) if kind(sent) == kind(understood) => Ok(()),

@@ -1,11 +1,19 @@
-//! The OpenAPI 3.1 document, made of the router: what is not in the table is neither served nor documented.
+//! The OpenAPI 3.1 document, derived from the router: what is not in the URL table is neither served nor documented.
+//!
+//! The handlers and their types say what is particular to them; [`finish`] adds what follows from that for client
+//! generators: names for the variants of unions, the problems of each operation, examples.
 
-use super::problem::{CONTENT_TYPE_PROBLEM, ProblemDetails};
+mod examples;
+mod problems;
+mod schemas;
+mod unions;
+
+use super::problem::ProblemDetails;
 use super::verbs;
-use utoipa::openapi::path::PathItem;
+use serde_json::Value;
 use utoipa::openapi::schema::{Schema, SchemaType};
 use utoipa::openapi::security::{ApiKey, ApiKeyValue, Http, HttpAuthScheme, SecurityScheme};
-use utoipa::openapi::{ContentBuilder, OpenApi, Ref, RefOr, Response, ResponseBuilder, schema};
+use utoipa::openapi::{OpenApi, RefOr, schema};
 use utoipa::{Modify, OpenApi as _};
 use utoipa_axum::router::{OpenApiRouter, UtoipaMethodRouter};
 
@@ -73,48 +81,18 @@ impl<S: Clone + Send + Sync + 'static> Table<S> for OpenApiRouter<S> {
     }
 }
 
-/// Adds to every operation the answer all of them have in common.
+/// The document as it is served.
 #[must_use]
-pub fn finish(mut document: OpenApi) -> OpenApi {
-    for item in document.paths.paths.values_mut() {
-        for operation in operations(item) {
-            operation.responses.responses.entry("default".to_owned()).or_insert_with(|| RefOr::T(problem()));
-        }
+pub fn finish(document: &OpenApi) -> Value {
+    let mut document = serde_json::to_value(document).unwrap_or_default();
+    if let Some(schemas) = document["components"]["schemas"].as_object_mut() {
+        unions::name_variants(schemas);
     }
-    open_extended(&mut document);
+    schemas::rename_pages(&mut document);
+    problems::add(&mut document);
+    examples::add(&mut document);
+    schemas::remove_unused(&mut document);
     document
-}
-
-/// A schema that refuses unknown properties cannot be part of an `allOf` that adds one (the tag of a union): the
-/// document would allow nothing at all. Such parts are documented open; the service still refuses unknown fields.
-fn open_extended(document: &mut OpenApi) {
-    let Some(components) = &mut document.components else { return };
-    let unions = components.schemas.values().filter_map(|schema| match schema {
-        RefOr::T(Schema::OneOf(union)) => Some(&union.items),
-        _ => None,
-    });
-    let parts = unions.flatten().filter_map(|variant| match variant {
-        RefOr::T(Schema::AllOf(all)) => Some(&all.items),
-        _ => None,
-    });
-    let names = parts.flatten().filter_map(|part| match part {
-        RefOr::Ref(reference) => reference.ref_location.rsplit('/').next().map(str::to_owned),
-        RefOr::T(_) => None,
-    });
-    for name in names.collect::<Vec<_>>() {
-        if let Some(RefOr::T(Schema::Object(object))) = components.schemas.get_mut(&name) {
-            object.additional_properties = None;
-        }
-    }
-}
-
-fn operations(item: &mut PathItem) -> impl Iterator<Item = &mut utoipa::openapi::path::Operation> {
-    [&mut item.get, &mut item.post, &mut item.put, &mut item.patch, &mut item.delete].into_iter().flatten()
-}
-
-fn problem() -> Response {
-    let content = ContentBuilder::new().schema(Some(Ref::from_schema_name("ProblemDetails"))).build();
-    ResponseBuilder::new().description("Any error, as a problem.").content(CONTENT_TYPE_PROBLEM, content).build()
 }
 
 /// The schema of a file's bytes.
@@ -145,36 +123,45 @@ mod tests {
     }
 
     #[test]
-    fn the_variants_of_a_union_allow_their_tag() {
-        let text = super::super::document_json();
-        let document: serde_json::Value = serde_json::from_str(&text).unwrap();
-        let schemas = &document["components"]["schemas"];
-        assert_eq!(schemas["CreateWorld"]["additionalProperties"], false);
-        for name in ["CreateJob", "WorldSpec", "MethodSpec"] {
-            let variants = schemas[name]["oneOf"].as_array().unwrap();
-            let references = variants.iter().map(|variant| variant["allOf"][0]["$ref"].as_str().unwrap());
-            for part in references.map(|reference| reference.rsplit('/').next().unwrap()) {
-                assert_eq!(schemas[part]["type"], "object", "{name}: {part}");
-                assert!(schemas[part]["additionalProperties"].is_null(), "{name}: {part}");
+    fn every_variant_of_a_union_is_a_component() {
+        fn check(place: &str, value: &Value) {
+            for (key, value) in value.as_object().into_iter().flatten() {
+                check(&format!("{place}/{key}"), value);
             }
+            for (index, value) in value.as_array().into_iter().flatten().enumerate() {
+                check(&format!("{place}/{index}"), value);
+            }
+            for variant in value["oneOf"].as_array().into_iter().flatten() {
+                let named = variant.get("$ref").is_some() || variant["type"] == "null";
+                assert!(named, "{place}: {variant} has no name");
+            }
+            assert!(value.get("allOf").is_none(), "{place}: not one object");
         }
+        let document = super::super::document();
+        check("", &document);
+        let schemas = document["components"]["schemas"].as_object().unwrap();
+        for (union, tag) in [("CreateJob", "kind"), ("WorldSpec", "kind"), ("MethodSpec", "name"), ("JobEvent", "type")]
+        {
+            assert_eq!(schemas[union]["discriminator"]["propertyName"], tag, "{union}");
+        }
+        assert!(schemas.keys().all(|name| !name.contains('_')), "{:?}", schemas.keys());
     }
 
     #[test]
     fn every_operation_has_an_own_id_a_known_tag_and_described_responses() {
-        let mut document = super::super::document();
-        let tags: BTreeSet<String> =
-            document.tags.clone().unwrap_or_default().into_iter().map(|tag| tag.name).collect();
+        let document = super::super::document();
+        let tags: BTreeSet<&str> =
+            document["tags"].as_array().unwrap().iter().map(|tag| tag["name"].as_str().unwrap()).collect();
         let mut ids = BTreeSet::new();
-        for (path, item) in &mut document.paths.paths {
-            for operation in operations(item) {
-                let id = operation.operation_id.clone().unwrap_or_default();
-                assert!(!id.is_empty() && ids.insert(id.clone()), "{path}: operation id {id:?}");
-                let own = operation.tags.clone().unwrap_or_default();
-                assert!(own.len() == 1 && tags.contains(&own[0]), "{path}: tags {own:?}");
-                for (status, response) in &operation.responses.responses {
-                    let RefOr::T(response) = response else { continue };
-                    assert!(!response.description.is_empty(), "{path} {id} {status}: no description");
+        for (path, item) in document["paths"].as_object().unwrap() {
+            for operation in item.as_object().unwrap().values() {
+                let id = operation["operationId"].as_str().unwrap_or_default();
+                assert!(!id.is_empty() && ids.insert(id), "{path}: operation id {id:?}");
+                let own = operation["tags"].as_array().unwrap();
+                assert!(own.len() == 1 && tags.contains(own[0].as_str().unwrap()), "{path}: tags {own:?}");
+                for (status, response) in operation["responses"].as_object().unwrap() {
+                    let described = response["description"].as_str().is_some_and(|text| !text.is_empty());
+                    assert!(described || response.get("$ref").is_some(), "{path} {id} {status}: no description");
                 }
             }
         }
