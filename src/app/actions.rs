@@ -2,9 +2,9 @@
 
 use crate::app::model::{
     ActionGoals, ActionId, ActionView, AppError, CreateJob, ErrorKind, Export, GeneralizationRequest, Interpolation,
-    JobView, Keyset, Page, PageQuery,
+    JobView, Keyset, Page, PageQuery, limits,
 };
-use crate::app::{App, compute, out_of_bounds, unknown_format};
+use crate::app::{App, compute, unknown_format, within};
 use crate::framework::generalization::{Goals, RbfSpec, goals_to_csv, interpolate};
 
 impl App {
@@ -46,14 +46,12 @@ impl App {
         Ok(self.ports.store.action_goals(id).await?)
     }
 
-    /// Interpolates `n` points (2 to 10000) of the curve through the goals with multiquadric radial basis functions.
+    /// Interpolates `n` points of the curve through the goals with multiquadric radial basis functions.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` n; `Conflict` if there is no accurate curve through these goals.
     pub async fn interpolate_action(&self, id: &ActionId, n: u32) -> Result<Interpolation, AppError> {
-        if !(2..=10_000).contains(&n) {
-            return Err(out_of_bounds("n", n, "2 to 10000"));
-        }
+        within("n", n, &limits::INTERPOLATION_POINTS)?;
         let goals = self.load_goals(id).await?;
         let curve = compute(move || interpolate(&goals, n as usize, &RbfSpec::default()))
             .await?

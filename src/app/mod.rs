@@ -10,6 +10,7 @@ mod access;
 pub mod actions;
 #[cfg(test)]
 mod bench;
+mod caller;
 pub mod demonstrations;
 pub mod experiments;
 pub mod jobs;
@@ -24,10 +25,12 @@ pub mod trajectories;
 pub mod worlds;
 
 pub use access::Access;
+pub use caller::Caller;
 
-use crate::framework::is_hidden;
-use model::{AppError, ErrorKind, Timestamp};
+use crate::framework::is_display_name;
+use model::{AppError, ErrorKind, Timestamp, limits};
 use ports::{Clock, Events, Ids, Store};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 use tokio::sync::watch;
 
@@ -49,13 +52,44 @@ pub struct Ports {
 pub struct App {
     ports: Ports,
     ready: watch::Sender<bool>,
+    upload_limit_bytes: usize,
+    caller: Caller,
 }
 
 impl App {
     /// The service on these ports; not ready yet.
     #[must_use]
     pub fn new(ports: Ports) -> Self {
-        Self { ports, ready: watch::Sender::new(false) }
+        Self {
+            ports,
+            ready: watch::Sender::new(false),
+            upload_limit_bytes: limits::DEFAULT_UPLOAD_BYTES,
+            caller: Caller::LocalOperator,
+        }
+    }
+
+    /// The same service with another limit on the bytes of one upload.
+    #[must_use]
+    pub fn with_upload_limit(self, bytes: usize) -> Self {
+        Self { upload_limit_bytes: bytes, ..self }
+    }
+
+    /// The same service on behalf of `caller`: every use-case called on it knows who asks.
+    #[must_use]
+    pub fn as_caller(&self, caller: Caller) -> Self {
+        Self { caller, ..self.clone() }
+    }
+
+    /// Who asks.
+    #[must_use]
+    pub fn caller(&self) -> Caller {
+        self.caller
+    }
+
+    /// Maximum size of one upload, bytes; whoever receives uploads enforces it while they arrive.
+    #[must_use]
+    pub fn upload_limit_bytes(&self) -> usize {
+        self.upload_limit_bytes
     }
 
     /// Whether workers run and the server is not stopping.
@@ -86,14 +120,14 @@ impl App {
     }
 }
 
-/// A display name without control characters, 1 to 128 characters long.
+/// Rejects a display name that is too long or holds hidden characters.
 fn check_name(pointer: &str, name: &str) -> Result<(), AppError> {
-    let length = name.chars().count();
-    if name.trim().is_empty() || length > 128 || name.chars().any(is_hidden) {
-        let detail = format!("a name has 1 to 128 visible characters, this one has {length}");
-        return Err(AppError::field(pointer, "invalid_name", detail));
+    if is_display_name(name) {
+        return Ok(());
     }
-    Ok(())
+    let (bounds, length) = (limits::in_words(&limits::NAME_CHARS), name.chars().count());
+    let detail = format!("a name has {bounds} visible characters, this one has {length}");
+    Err(AppError::field(pointer, "invalid_name", detail))
 }
 
 /// Runs CPU work away from the tasks that answer requests.
@@ -101,7 +135,12 @@ async fn compute<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -
     tokio::task::spawn_blocking(work).await.map_err(AppError::internal)
 }
 
-/// A number of a query that is out of its bounds.
+/// A number of a query, if it is within its bounds.
+fn within(name: &str, value: u32, bounds: &RangeInclusive<u32>) -> Result<u32, AppError> {
+    if bounds.contains(&value) { Ok(value) } else { Err(out_of_bounds(name, value, &limits::in_words(bounds))) }
+}
+
+/// The error of a value of a query that is out of its bounds.
 fn out_of_bounds(name: &str, value: impl std::fmt::Display, bounds: &str) -> AppError {
     AppError::new(ErrorKind::Malformed, "invalid_query", format!("{name} is {value}: give {bounds}"))
 }
@@ -111,16 +150,30 @@ fn unknown_format(format: &str, known: &str) -> AppError {
     AppError::new(ErrorKind::Malformed, "unknown_format", format!("there is no format {format:?}: give {known}"))
 }
 
-/// The error of a list of chosen things, with its whole chain of causes in one line.
-fn chain_text(error: &(dyn std::error::Error + 'static)) -> String {
+/// An error with its causes in one line; a cause that its effect already quotes is left out.
+#[must_use]
+pub fn chain_text(error: &(dyn std::error::Error + 'static)) -> String {
     let mut text = error.to_string();
     let mut next = error.source();
     while let Some(cause) = next {
         let cause_text = cause.to_string();
-        if !text.contains(&cause_text) {
+        if !text.contains(cause_text.trim()) {
             text = format!("{text}: {cause_text}");
         }
         next = cause.source();
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cause_is_told_once() {
+        let cause = anyhow::anyhow!("no such file");
+        assert_eq!(chain_text(cause.context("cannot read x").as_ref()), "cannot read x: no such file");
+        let twice = anyhow::anyhow!("bad number\n").context("line 1: bad number");
+        assert_eq!(chain_text(twice.as_ref()), "line 1: bad number");
+    }
 }

@@ -1,8 +1,8 @@
 //! Recognition: which action an observation shows, or none.
 
 use crate::app::model::{
-    ActionId, ActionView, AppError, ErrorKind, IncomparableCandidate, MAX_PAGE_SIZE, Observed, PageQuery,
-    RecognitionCandidate, RecognitionView, RecognizeRequest,
+    ActionId, ActionView, AppError, ErrorKind, IncomparableCandidate, Observed, PageQuery, RecognitionCandidate,
+    RecognitionView, RecognizeRequest, limits,
 };
 use crate::app::{App, compute};
 use crate::framework::generalization::Goals;
@@ -50,13 +50,13 @@ impl App {
 
     async fn candidates(&self, named: &[ActionId]) -> Result<Vec<ActionView>, AppError> {
         if named.is_empty() {
-            let page = PageQuery { page_size: Some(MAX_PAGE_SIZE), page_token: None };
+            let page = PageQuery { page_size: Some(limits::MAX_CANDIDATES), page_token: None };
             let mut latest = BTreeSet::new();
             let actions = self.list_actions(page).await?.items;
             return Ok(actions.into_iter().filter(|action| latest.insert(action.name.clone())).collect());
         }
-        if named.len() > MAX_PAGE_SIZE as usize {
-            let detail = format!("{} candidates are named: give at most {MAX_PAGE_SIZE}", named.len());
+        if named.len() > limits::MAX_CANDIDATES as usize {
+            let detail = format!("{} candidates are named: give at most {}", named.len(), limits::MAX_CANDIDATES);
             return Err(AppError::field("/candidates", "out_of_range", detail));
         }
         let mut actions = Vec::with_capacity(named.len());

@@ -2,9 +2,9 @@
 
 use crate::app::model::{
     AppError, Convergence, ErrorKind, Keyset, Page, PageQuery, RunFilter, RunGoals, RunId, RunTrials, RunView,
-    TrajectoryView,
+    TrajectoryView, limits,
 };
-use crate::app::{App, out_of_bounds};
+use crate::app::{App, within};
 
 impl App {
     /// Lists runs, newest first.
@@ -42,16 +42,13 @@ impl App {
         Ok(RunTrials { run: run.id, trials: self.ports.store.run_trials(id).await?.trials })
     }
 
-    /// Reads a run's convergence: each improvement and the end of each goal, thinned to at most `max_points` (2 to
-    /// 10000) evenly spaced points including the first and the last.
+    /// Reads a run's convergence: each improvement and the end of each goal, thinned to at most `max_points` evenly spaced points including the first and the last.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` number.
     pub async fn run_convergence(&self, id: &RunId, max_points: Option<u32>) -> Result<Convergence, AppError> {
-        let max_points = max_points.unwrap_or(1000);
-        if !(2..=10_000).contains(&max_points) {
-            return Err(out_of_bounds("max_points", max_points, "2 to 10000"));
-        }
+        let max_points =
+            within("max_points", max_points.unwrap_or(limits::DEFAULT_POINTS), &limits::CONVERGENCE_POINTS)?;
         let all = self.ports.store.run_convergence(id).await?;
         Ok(Convergence { run: id.clone(), points: thin(&all, max_points as usize) })
     }

@@ -14,6 +14,7 @@ mod run;
 mod serve;
 mod values;
 
+use crate::app::chain_text;
 use crate::lifecycle::{EXIT_GATE, GateClosed};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -55,28 +56,8 @@ pub fn main(arguments: &Arguments) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", one_line(&error));
+            eprintln!("error: {}", chain_text(error.as_ref()));
             if error.is::<GateClosed>() { ExitCode::from(EXIT_GATE) } else { ExitCode::FAILURE }
         }
-    }
-}
-
-/// The error and its causes, joined; a cause already contained in the text is not repeated.
-fn one_line(error: &anyhow::Error) -> String {
-    error.chain().skip(1).map(ToString::to_string).fold(error.to_string(), |text, cause| {
-        if text.contains(cause.trim()) { text } else { format!("{text}: {cause}") }
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cause_is_told_once() {
-        let cause = anyhow::anyhow!("no such file");
-        assert_eq!(one_line(&cause.context("cannot read x")), "cannot read x: no such file");
-        let twice = anyhow::anyhow!("bad number\n").context("line 1: bad number");
-        assert_eq!(one_line(&twice), "line 1: bad number");
     }
 }

@@ -96,7 +96,7 @@ async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()
         ids: Arc::new(SystemIds),
         events: Arc::new(LocalEvents::new()),
     };
-    let app = App::new(ports.clone());
+    let app = App::new(ports.clone()).with_upload_limit(config.limits.upload_bytes);
     let listener = TcpListener::bind(config.server.listen)
         .await
         .with_context(|| format!("cannot listen on {}: give another --listen", config.server.listen))?;
@@ -163,15 +163,10 @@ fn settings(config: &Config) -> Settings {
 
 fn router(app: &App, access: &Access, config: &Config) -> anyhow::Result<axum::Router> {
     let limits = &config.limits;
-    let grpc_settings = grpc::Settings {
-        upload_limit_bytes: limits.upload_bytes,
-        message_limit_bytes: limits.body_bytes,
-        reflection: config.server.reflection,
-    };
+    let grpc_settings = grpc::Settings { message_limit_bytes: limits.body_bytes, reflection: config.server.reflection };
     // Both routers have a fallback, and a merged router may only have one.
     let grpc = grpc::routes(app.clone(), access.clone(), &grpc_settings)?.into_axum_router().reset_fallback();
     let http_settings = http::Settings {
-        upload_limit_bytes: limits.upload_bytes,
         body_limit_bytes: limits.body_bytes,
         timeout: Duration::from_millis(limits.answer_ms),
         hosts: config.server.hosts.clone(),

@@ -1,6 +1,7 @@
 //! `[limits]`: bounds on sizes and times.
 
 use super::{OutOfBounds, within};
+use crate::app::model::limits;
 use serde::Deserialize;
 
 /// Bounds beyond which a request is rejected as too large or too slow.
@@ -22,8 +23,8 @@ pub struct LimitsConfig {
 impl Default for LimitsConfig {
     fn default() -> Self {
         Self {
-            upload_bytes: 256 << 20,
-            body_bytes: 16 << 20,
+            upload_bytes: limits::DEFAULT_UPLOAD_BYTES,
+            body_bytes: limits::DEFAULT_BODY_BYTES,
             answer_ms: 90_000,
             request_head_ms: 10_000,
             connections: 1024,

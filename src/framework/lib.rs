@@ -27,4 +27,4 @@ pub mod trajectory;
 pub mod world;
 
 pub use feature::Feature;
-pub use name::is_hidden;
+pub use name::{MAX_DISPLAY_NAME_CHARS, is_display_name, is_hidden};

@@ -1,5 +1,6 @@
 //! `ActionService`.
 
+use super::auth::as_caller;
 use super::convert::{items, page, required, resource, text, work};
 use super::error::status;
 use super::files::{FileStream, send};
@@ -19,15 +20,17 @@ impl ActionService for Service {
         &self,
         request: Request<proto::CreateActionRequest>,
     ) -> Result<Response<proto::Job>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::CreateActionRequest { generalization, idempotency_key } = request.into_inner();
         let wanted = required("/generalization", generalization).and_then(work::generalization).map_err(status)?;
-        let job = self.0.create_action(wanted, text(idempotency_key)).await.map_err(status)?;
+        let job = app.create_action(wanted, text(idempotency_key)).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
     async fn get_action(&self, request: Request<proto::GetActionRequest>) -> Result<Response<proto::Action>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetActionRequest { id } = request.into_inner();
-        let action = self.0.get_action(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let action = app.get_action(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(action.into()))
     }
 
@@ -35,8 +38,9 @@ impl ActionService for Service {
         &self,
         request: Request<proto::ListActionsRequest>,
     ) -> Result<Response<proto::ListActionsResponse>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ListActionsRequest { page_size, page_token } = request.into_inner();
-        let found = self.0.list_actions(page(page_size, page_token)).await.map_err(status)?;
+        let found = app.list_actions(page(page_size, page_token)).await.map_err(status)?;
         let (actions, next_page_token) = items(found);
         Ok(Response::new(proto::ListActionsResponse { actions, next_page_token }))
     }
@@ -45,8 +49,9 @@ impl ActionService for Service {
         &self,
         request: Request<proto::GetActionGoalsRequest>,
     ) -> Result<Response<proto::ActionGoals>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetActionGoalsRequest { id } = request.into_inner();
-        let goals = self.0.action_goals(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let goals = app.action_goals(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(goals.into()))
     }
 
@@ -54,8 +59,9 @@ impl ActionService for Service {
         &self,
         request: Request<proto::InterpolateActionRequest>,
     ) -> Result<Response<proto::Interpolation>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::InterpolateActionRequest { id, n } = request.into_inner();
-        let curve = self.0.interpolate_action(&resource(&id).map_err(status)?, n).await.map_err(status)?;
+        let curve = app.interpolate_action(&resource(&id).map_err(status)?, n).await.map_err(status)?;
         Ok(Response::new(curve.into()))
     }
 
@@ -63,8 +69,9 @@ impl ActionService for Service {
         &self,
         request: Request<proto::ExportActionRequest>,
     ) -> Result<Response<FileStream>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ExportActionRequest { id, format } = request.into_inner();
-        let file = self.0.export_action(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
+        let file = app.export_action(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
         Ok(send(file))
     }
 }

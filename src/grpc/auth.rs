@@ -1,8 +1,8 @@
 //! Authentication: the token as `authorization: Bearer TOKEN` in the metadata.
 
 use super::error::status;
-use crate::app::Access;
 use crate::app::model::{AppError, ErrorKind};
+use crate::app::{Access, App, Caller};
 use tonic::service::Interceptor;
 use tonic::{Request, Status};
 
@@ -11,11 +11,12 @@ use tonic::{Request, Status};
 pub struct Guard(pub Access);
 
 impl Interceptor for Guard {
-    fn call(&mut self, request: Request<()>) -> Result<Request<()>, Status> {
+    fn call(&mut self, mut request: Request<()>) -> Result<Request<()>, Status> {
         let value = request.metadata().get("authorization").and_then(|value| value.to_str().ok());
         let bearer = value.and_then(|text| text.split_once(' '));
         match bearer {
             Some((scheme, token)) if scheme.eq_ignore_ascii_case("bearer") && self.0.admits_token(token.trim()) => {
+                request.extensions_mut().insert(Caller::LocalOperator);
                 Ok(request)
             }
             _ => {
@@ -24,6 +25,16 @@ impl Interceptor for Guard {
             }
         }
     }
+}
+
+/// The use-cases on behalf of whoever [`Guard`] has admitted.
+///
+/// # Errors
+/// `INTERNAL` for a service behind no guard.
+pub fn as_caller<T>(app: &App, request: &Request<T>) -> Result<App, Status> {
+    let caller = request.extensions().get::<Caller>();
+    let caller = caller.ok_or_else(|| status(AppError::internal("a service behind no authentication")))?;
+    Ok(app.as_caller(*caller))
 }
 
 #[cfg(test)]

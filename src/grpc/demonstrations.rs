@@ -1,26 +1,19 @@
 //! `DemonstrationService`.
 
+use super::auth::as_caller;
 use super::convert::demonstration::{header, patch, samples};
 use super::convert::{items, page, resource};
 use super::error::status;
 use super::files::{FileStream, send};
 use super::proto;
 use crate::app::App;
-use crate::app::model::{AppError, ErrorKind, UploadDemonstration, UploadFile};
+use crate::app::model::{AppError, ErrorKind, UploadDemonstration, UploadFile, limits};
 use proto::demonstration_service_server::DemonstrationService;
 use proto::upload_request::Part;
 use tonic::{Request, Response, Status, Streaming};
 
-/// Maximum number of files of one upload.
-const MAX_FILES: usize = 64;
-
 /// Service implementation on the use cases.
-pub struct Service {
-    /// Use cases.
-    pub app: App,
-    /// Maximum size of one upload, bytes.
-    pub upload_limit_bytes: usize,
-}
+pub struct Service(pub App);
 
 #[tonic::async_trait]
 impl DemonstrationService for Service {
@@ -30,8 +23,9 @@ impl DemonstrationService for Service {
         &self,
         request: Request<Streaming<proto::UploadRequest>>,
     ) -> Result<Response<proto::Demonstration>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let upload = self.receive(request.into_inner()).await?;
-        let view = self.app.upload_demonstration(upload).await.map_err(status)?;
+        let view = app.upload_demonstration(upload).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
 
@@ -39,8 +33,9 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::GetDemonstrationRequest>,
     ) -> Result<Response<proto::Demonstration>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetDemonstrationRequest { id } = request.into_inner();
-        let view = self.app.get_demonstration(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let view = app.get_demonstration(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
 
@@ -48,8 +43,9 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::ListDemonstrationsRequest>,
     ) -> Result<Response<proto::ListDemonstrationsResponse>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ListDemonstrationsRequest { page_size, page_token } = request.into_inner();
-        let found = self.app.list_demonstrations(page(page_size, page_token)).await.map_err(status)?;
+        let found = app.list_demonstrations(page(page_size, page_token)).await.map_err(status)?;
         let (demonstrations, next_page_token) = items(found);
         Ok(Response::new(proto::ListDemonstrationsResponse { demonstrations, next_page_token }))
     }
@@ -58,8 +54,9 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::GetDemonstrationReportRequest>,
     ) -> Result<Response<proto::DemonstrationReport>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetDemonstrationReportRequest { id } = request.into_inner();
-        let report = self.app.demonstration_report(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let report = app.demonstration_report(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(report.into()))
     }
 
@@ -67,8 +64,9 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::GetDemonstrationSamplesRequest>,
     ) -> Result<Response<proto::DemonstrationSamples>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let (id, query) = samples(request.into_inner()).map_err(status)?;
-        let view = self.app.demonstration_samples(&resource(&id).map_err(status)?, query).await.map_err(status)?;
+        let view = app.demonstration_samples(&resource(&id).map_err(status)?, query).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
 
@@ -76,9 +74,10 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::PatchDemonstrationRequest>,
     ) -> Result<Response<proto::Demonstration>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let (id, change, revision) = patch(request.into_inner());
         let id = resource(&id).map_err(status)?;
-        let view = self.app.patch_demonstration(&id, change, revision).await.map_err(status)?;
+        let view = app.patch_demonstration(&id, change, revision).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
 
@@ -86,8 +85,9 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::DeleteDemonstrationRequest>,
     ) -> Result<Response<()>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::DeleteDemonstrationRequest { id, revision } = request.into_inner();
-        self.app.delete_demonstration(&resource(&id).map_err(status)?, revision).await.map_err(status)?;
+        app.delete_demonstration(&resource(&id).map_err(status)?, revision).await.map_err(status)?;
         Ok(Response::new(()))
     }
 
@@ -95,16 +95,17 @@ impl DemonstrationService for Service {
         &self,
         request: Request<proto::ExportDemonstrationRequest>,
     ) -> Result<Response<FileStream>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ExportDemonstrationRequest { id, format } = request.into_inner();
         let id = resource(&id).map_err(status)?;
-        let file = self.app.export_demonstration(&id, &format).await.map_err(status)?;
+        let file = app.export_demonstration(&id, &format).await.map_err(status)?;
         Ok(send(file))
     }
 }
 
 impl Service {
     async fn receive(&self, mut parts: Streaming<proto::UploadRequest>) -> Result<UploadDemonstration, Status> {
-        let mut assembly = Assembly::new(self.upload_limit_bytes);
+        let mut assembly = Assembly::new(self.0.upload_limit_bytes());
         while let Some(request) = parts.message().await? {
             assembly.take(request.part).map_err(status)?;
         }
@@ -129,8 +130,9 @@ impl Assembly {
         match part {
             Some(Part::Header(header)) if self.header.is_none() && self.files.is_empty() => self.header = Some(header),
             Some(Part::FileName(file_name)) if self.header.is_some() => {
-                if self.files.len() == MAX_FILES {
-                    let message = format!("an upload has at most {MAX_FILES} files");
+                let most = *limits::UPLOAD_FILES.end() as usize;
+                if self.files.len() == most {
+                    let message = format!("an upload has at most {most} files");
                     return Err(AppError::new(ErrorKind::TooLarge, "too_many_files", message));
                 }
                 self.files.push(UploadFile { file_name, bytes: Vec::new() });

@@ -1,5 +1,6 @@
 //! ExperimentService.
 
+use super::auth::as_caller;
 use super::convert::experiment::{quantity, request as experiment};
 use super::convert::{items, page, required, resource, text};
 use super::error::status;
@@ -20,9 +21,10 @@ impl ExperimentService for Service {
         &self,
         request: Request<proto::CreateExperimentRequest>,
     ) -> Result<Response<proto::Job>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::CreateExperimentRequest { experiment: message, idempotency_key } = request.into_inner();
         let wanted = required("/experiment", message).and_then(experiment).map_err(status)?;
-        let job = self.0.create_experiment(wanted, text(idempotency_key)).await.map_err(status)?;
+        let job = app.create_experiment(wanted, text(idempotency_key)).await.map_err(status)?;
         Ok(Response::new(job.into()))
     }
 
@@ -30,8 +32,9 @@ impl ExperimentService for Service {
         &self,
         request: Request<proto::GetExperimentRequest>,
     ) -> Result<Response<proto::Experiment>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetExperimentRequest { id } = request.into_inner();
-        let view = self.0.get_experiment(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let view = app.get_experiment(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
 
@@ -39,8 +42,9 @@ impl ExperimentService for Service {
         &self,
         request: Request<proto::ListExperimentsRequest>,
     ) -> Result<Response<proto::ListExperimentsResponse>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ListExperimentsRequest { page_size, page_token } = request.into_inner();
-        let found = self.0.list_experiments(page(page_size, page_token)).await.map_err(status)?;
+        let found = app.list_experiments(page(page_size, page_token)).await.map_err(status)?;
         let (experiments, next_page_token) = items(found);
         Ok(Response::new(proto::ListExperimentsResponse { experiments, next_page_token }))
     }
@@ -49,8 +53,9 @@ impl ExperimentService for Service {
         &self,
         request: Request<proto::GetExperimentTableRequest>,
     ) -> Result<Response<proto::ExperimentTable>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetExperimentTableRequest { id } = request.into_inner();
-        let table = self.0.experiment_table(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let table = app.experiment_table(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(table.into()))
     }
 
@@ -58,9 +63,10 @@ impl ExperimentService for Service {
         &self,
         request: Request<proto::ListExperimentRowsRequest>,
     ) -> Result<Response<proto::ListExperimentRowsResponse>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ListExperimentRowsRequest { id, cell, page_size, page_token } = request.into_inner();
         let (id, page) = (resource(&id).map_err(status)?, page(page_size, page_token));
-        let (rows, next_page_token) = items(self.0.experiment_rows(&id, cell, page).await.map_err(status)?);
+        let (rows, next_page_token) = items(app.experiment_rows(&id, cell, page).await.map_err(status)?);
         Ok(Response::new(proto::ListExperimentRowsResponse { rows, next_page_token }))
     }
 
@@ -68,9 +74,10 @@ impl ExperimentService for Service {
         &self,
         request: Request<proto::CompareExperimentRequest>,
     ) -> Result<Response<proto::ExperimentComparison>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::CompareExperimentRequest { id, first, second, quantity: wanted } = request.into_inner();
         let (id, quantity) = (resource(&id).map_err(status)?, quantity(wanted).map_err(status)?);
-        let comparison = self.0.compare_experiment(&id, first, second, quantity).await.map_err(status)?;
+        let comparison = app.compare_experiment(&id, first, second, quantity).await.map_err(status)?;
         Ok(Response::new(comparison.into()))
     }
 
@@ -78,8 +85,9 @@ impl ExperimentService for Service {
         &self,
         request: Request<proto::ExportExperimentRequest>,
     ) -> Result<Response<FileStream>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ExportExperimentRequest { id, format } = request.into_inner();
-        let file = self.0.export_experiment(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
+        let file = app.export_experiment(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
         Ok(send(file))
     }
 }

@@ -37,18 +37,10 @@ use tonic::service::interceptor::InterceptedService;
 /// Settings of this edge.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Most bytes of one upload, over all its messages.
-    pub upload_limit_bytes: usize,
-    /// Most bytes of one message.
+    /// Maximum size of one message, bytes.
     pub message_limit_bytes: usize,
     /// Whether clients may ask for the services and their messages.
     pub reflection: bool,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { upload_limit_bytes: 256 << 20, message_limit_bytes: 16 << 20, reflection: true }
-    }
 }
 
 /// All services, for the router they share with HTTP.
@@ -63,11 +55,9 @@ pub fn routes(app: App, access: Access, settings: &Settings) -> Result<Routes, t
             InterceptedService::new($server::new($service).max_decoding_message_size(limit), guard.clone())
         };
     }
-    let upload_limit_bytes = settings.upload_limit_bytes;
-    let demonstrations = demonstrations::Service { app: app.clone(), upload_limit_bytes };
     let health = health::server(app.clone());
     let mut routes = Routes::new(health)
-        .add_service(guarded!(DemonstrationServiceServer, demonstrations))
+        .add_service(guarded!(DemonstrationServiceServer, demonstrations::Service(app.clone())))
         .add_service(guarded!(ActionServiceServer, actions::Service(app.clone())))
         .add_service(guarded!(RecognitionServiceServer, recognition::Service(app.clone())))
         .add_service(guarded!(RobotServiceServer, robots::Service(app.clone())))

@@ -1,20 +1,18 @@
 //! `RecognitionService`.
 
+use super::auth::as_caller;
 use super::convert::recognition::{question, request};
 use super::convert::{self, all};
 use super::error::status;
 use super::proto;
 use crate::app::App;
-use crate::app::model::{AppError, ErrorKind, Observed};
+use crate::app::model::{AppError, ErrorKind, Observed, limits};
 use crate::framework::Feature;
 use futures_util::StreamExt as _;
 use futures_util::stream::{BoxStream, try_unfold};
 use proto::recognition_service_server::RecognitionService;
 use proto::recognize_online_request::Part;
 use tonic::{Request, Response, Status, Streaming};
-
-/// Maximum number of rows of one online recognition.
-const MAX_ROWS: usize = 100_000;
 
 /// Service implementation on the use cases.
 pub struct Service(pub App);
@@ -27,8 +25,9 @@ impl RecognitionService for Service {
         &self,
         message: Request<proto::RecognizeRequest>,
     ) -> Result<Response<proto::Recognition>, Status> {
+        let app = as_caller(&self.0, &message)?;
         let wanted = request(message.into_inner()).map_err(status)?;
-        let view = self.0.recognize(wanted).await.map_err(status)?;
+        let view = app.recognize(wanted).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
 
@@ -36,17 +35,13 @@ impl RecognitionService for Service {
         &self,
         message: Request<Streaming<proto::RecognizeOnlineRequest>>,
     ) -> Result<Response<Self::RecognizeOnlineStream>, Status> {
+        let app = as_caller(&self.0, &message)?;
         let mut parts = message.into_inner();
         let first = parts.message().await?.and_then(|request| request.part);
         let Some(Part::Start(start)) = first else { return Err(status(out_of_order())) };
         let proto::RecognizeOnlineStart { question, features } = start;
-        let session = Session {
-            app: self.0.clone(),
-            parts,
-            question: question.unwrap_or_default(),
-            features: all(features),
-            seen: Vec::new(),
-        };
+        let session =
+            Session { app, parts, question: question.unwrap_or_default(), features: all(features), seen: Vec::new() };
         Ok(Response::new(try_unfold(session, Session::next).boxed()))
     }
 }
@@ -67,8 +62,9 @@ impl Session {
         let Some(Part::Samples(proto::RecognizeOnlineSamples { rows })) = message.part else {
             return Err(status(out_of_order()));
         };
-        if self.seen.len() + rows.len() > MAX_ROWS {
-            let text = format!("an online recognition takes at most {MAX_ROWS} rows: start another");
+        if self.seen.len() + rows.len() > limits::MAX_RECOGNITION_ROWS {
+            let most = limits::MAX_RECOGNITION_ROWS;
+            let text = format!("an online recognition takes at most {most} rows: start another");
             return Err(status(AppError::new(ErrorKind::TooLarge, "too_many_rows", text)));
         }
         self.seen.extend(convert::rows("/rows", rows).map_err(status)?);

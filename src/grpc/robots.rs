@@ -1,5 +1,6 @@
 //! `RobotService`.
 
+use super::auth::as_caller;
 use super::convert::{items, page, resource, robot};
 use super::error::status;
 use super::proto;
@@ -16,14 +17,16 @@ impl RobotService for Service {
         &self,
         request: Request<proto::CreateRobotRequest>,
     ) -> Result<Response<proto::Robot>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let wanted = robot::create(request.into_inner()).map_err(status)?;
-        let robot = self.0.create_robot(wanted).await.map_err(status)?;
+        let robot = app.create_robot(wanted).await.map_err(status)?;
         Ok(Response::new(robot.into()))
     }
 
     async fn get_robot(&self, request: Request<proto::GetRobotRequest>) -> Result<Response<proto::Robot>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetRobotRequest { id } = request.into_inner();
-        let robot = self.0.get_robot(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let robot = app.get_robot(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(robot.into()))
     }
 
@@ -31,8 +34,9 @@ impl RobotService for Service {
         &self,
         request: Request<proto::ListRobotsRequest>,
     ) -> Result<Response<proto::ListRobotsResponse>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ListRobotsRequest { page_size, page_token } = request.into_inner();
-        let found = self.0.list_robots(page(page_size, page_token)).await.map_err(status)?;
+        let found = app.list_robots(page(page_size, page_token)).await.map_err(status)?;
         let (robots, next_page_token) = items(found);
         Ok(Response::new(proto::ListRobotsResponse { robots, next_page_token }))
     }
@@ -41,14 +45,16 @@ impl RobotService for Service {
         &self,
         request: Request<proto::GetRobotUrdfRequest>,
     ) -> Result<Response<proto::RobotUrdf>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetRobotUrdfRequest { id } = request.into_inner();
-        let urdf = self.0.robot_urdf(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let urdf = app.robot_urdf(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(proto::RobotUrdf { urdf }))
     }
 
     async fn delete_robot(&self, request: Request<proto::DeleteRobotRequest>) -> Result<Response<()>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::DeleteRobotRequest { id } = request.into_inner();
-        self.0.delete_robot(&resource(&id).map_err(status)?).await.map_err(status)?;
+        app.delete_robot(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(()))
     }
 }

@@ -1,5 +1,6 @@
 //! `RunService`.
 
+use super::auth::as_caller;
 use super::convert::trajectory::split;
 use super::convert::{items, page, reference, resource};
 use super::error::status;
@@ -15,8 +16,9 @@ pub struct Service(pub App);
 #[tonic::async_trait]
 impl RunService for Service {
     async fn get_run(&self, request: Request<proto::GetRunRequest>) -> Result<Response<proto::Run>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetRunRequest { id } = request.into_inner();
-        let run = self.0.get_run(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let run = app.get_run(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(run.into()))
     }
 
@@ -24,12 +26,13 @@ impl RunService for Service {
         &self,
         request: Request<proto::ListRunsRequest>,
     ) -> Result<Response<proto::ListRunsResponse>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ListRunsRequest { job, page_size, page_token } = request.into_inner();
         let job = match job.as_str() {
             "" => None,
             id => Some(reference("/job", id).map_err(status)?),
         };
-        let found = self.0.list_runs(RunFilter { job }, page(page_size, page_token)).await.map_err(status)?;
+        let found = app.list_runs(RunFilter { job }, page(page_size, page_token)).await.map_err(status)?;
         let (runs, next_page_token) = items(found);
         Ok(Response::new(proto::ListRunsResponse { runs, next_page_token }))
     }
@@ -38,8 +41,9 @@ impl RunService for Service {
         &self,
         request: Request<proto::GetRunGoalsRequest>,
     ) -> Result<Response<proto::RunGoals>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetRunGoalsRequest { id } = request.into_inner();
-        let goals = self.0.run_goals(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let goals = app.run_goals(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(goals.into()))
     }
 
@@ -47,8 +51,9 @@ impl RunService for Service {
         &self,
         request: Request<proto::GetRunTrialsRequest>,
     ) -> Result<Response<proto::RunTrials>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetRunTrialsRequest { id } = request.into_inner();
-        let trials = self.0.run_trials(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let trials = app.run_trials(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(trials.into()))
     }
 
@@ -56,8 +61,9 @@ impl RunService for Service {
         &self,
         request: Request<proto::GetRunConvergenceRequest>,
     ) -> Result<Response<proto::Convergence>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetRunConvergenceRequest { id, max_points } = request.into_inner();
-        let curve = self.0.run_convergence(&resource(&id).map_err(status)?, max_points).await.map_err(status)?;
+        let curve = app.run_convergence(&resource(&id).map_err(status)?, max_points).await.map_err(status)?;
         Ok(Response::new(curve.into()))
     }
 
@@ -65,8 +71,9 @@ impl RunService for Service {
         &self,
         request: Request<proto::GetRunTrajectoryRequest>,
     ) -> Result<Response<proto::Trajectory>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetRunTrajectoryRequest { id } = request.into_inner();
-        let trajectory = self.0.run_trajectory(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let trajectory = app.run_trajectory(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(split(trajectory).0))
     }
 }

@@ -1,19 +1,17 @@
 //! `TrajectoryService`.
 
+use super::auth::as_caller;
 use super::convert::resource;
 use super::convert::trajectory::{chunks, split};
 use super::error::status;
 use super::files::{FileStream, send};
 use super::proto;
 use crate::app::App;
-use crate::app::model::{AppError, ErrorKind};
+use crate::app::model::{AppError, ErrorKind, limits};
 use futures_util::StreamExt as _;
 use futures_util::stream::{BoxStream, iter};
 use proto::trajectory_service_server::TrajectoryService;
 use tonic::{Request, Response, Status};
-
-const DEFAULT_BATCH: u32 = 256;
-const MAX_BATCH: u32 = 4096;
 
 /// Service implementation on the use cases.
 pub struct Service(pub App);
@@ -27,8 +25,9 @@ impl TrajectoryService for Service {
         &self,
         request: Request<proto::GetTrajectoryRequest>,
     ) -> Result<Response<proto::Trajectory>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::GetTrajectoryRequest { id } = request.into_inner();
-        let view = self.0.get_trajectory(&resource(&id).map_err(status)?).await.map_err(status)?;
+        let view = app.get_trajectory(&resource(&id).map_err(status)?).await.map_err(status)?;
         Ok(Response::new(split(view).0))
     }
 
@@ -36,10 +35,11 @@ impl TrajectoryService for Service {
         &self,
         request: Request<proto::StreamTrajectoryRequest>,
     ) -> Result<Response<Self::StreamTrajectoryStream>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::StreamTrajectoryRequest { id, from_index, batch } = request.into_inner();
         let id = resource(&id).map_err(status)?;
         let size = batch_size(batch).map_err(status)?;
-        let (_, points) = split(self.0.get_trajectory(&id).await.map_err(status)?);
+        let (_, points) = split(app.get_trajectory(&id).await.map_err(status)?);
         let from = usize::try_from(from_index).unwrap_or(usize::MAX);
         Ok(Response::new(iter(chunks(points, from, size)).map(Ok).boxed()))
     }
@@ -48,18 +48,19 @@ impl TrajectoryService for Service {
         &self,
         request: Request<proto::ExportTrajectoryRequest>,
     ) -> Result<Response<FileStream>, Status> {
+        let app = as_caller(&self.0, &request)?;
         let proto::ExportTrajectoryRequest { id, format } = request.into_inner();
-        let file = self.0.export_trajectory(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
+        let file = app.export_trajectory(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
         Ok(send(file))
     }
 }
 
 fn batch_size(asked: u32) -> Result<usize, AppError> {
     match asked {
-        0 => Ok(DEFAULT_BATCH as usize),
-        1..=MAX_BATCH => Ok(asked as usize),
+        0 => Ok(limits::DEFAULT_TRAJECTORY_BATCH as usize),
+        _ if limits::TRAJECTORY_BATCH.contains(&asked) => Ok(asked as usize),
         _ => {
-            let message = format!("batch is {asked}: give 1 to {MAX_BATCH}");
+            let message = format!("batch is {asked}: give {}", limits::in_words(&limits::TRAJECTORY_BATCH));
             Err(AppError::new(ErrorKind::Malformed, "invalid_batch", message))
         }
     }

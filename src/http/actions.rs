@@ -1,12 +1,10 @@
 //! `/actions`: demonstrations generalized into goals; every version is immutable.
 
 use super::answer::{ExportParameters, PageParameters, accepted, file};
-use super::extract::{IdempotencyKey, Json, Path, Query};
+use super::extract::{AsCaller, IdempotencyKey, Json, Path, Query};
 use super::openapi::Binary;
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{ActionGoals, ActionId, ActionView, GeneralizationRequest, Interpolation, JobView, Page};
-use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
@@ -17,7 +15,7 @@ use utoipa::IntoParams;
     request_body = GeneralizationRequest,
     responses((status = 202, description = "The job that makes the action.", body = JobView)))]
 pub async fn create(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     IdempotencyKey(key): IdempotencyKey,
     Json(request): Json<GeneralizationRequest>,
 ) -> Result<Response, Problem> {
@@ -28,7 +26,7 @@ pub async fn create(
 #[utoipa::path(get, path = "/actions", operation_id = "listActions", tag = "actions", params(PageParameters),
     responses((status = 200, description = "One page.", body = Page<ActionView>)))]
 pub async fn list(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Query(page): Query<PageParameters>,
 ) -> Result<Json<Page<ActionView>>, Problem> {
     Ok(Json(app.list_actions(page.into()).await?))
@@ -38,7 +36,7 @@ pub async fn list(
 #[utoipa::path(get, path = "/actions/{id}", operation_id = "getAction", tag = "actions",
     params(("id" = ActionId, Path)),
     responses((status = 200, description = "The action.", body = ActionView)))]
-pub async fn get(State(app): State<App>, Path(id): Path<ActionId>) -> Result<Json<ActionView>, Problem> {
+pub async fn get(AsCaller(app): AsCaller, Path(id): Path<ActionId>) -> Result<Json<ActionView>, Problem> {
     Ok(Json(app.get_action(&id).await?))
 }
 
@@ -46,7 +44,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<ActionId>) -> Result<Jso
 #[utoipa::path(get, path = "/actions/{id}/goals", operation_id = "getActionGoals", tag = "actions",
     params(("id" = ActionId, Path)),
     responses((status = 200, description = "One row a goal, one column a feature.", body = ActionGoals)))]
-pub async fn goals(State(app): State<App>, Path(id): Path<ActionId>) -> Result<Json<ActionGoals>, Problem> {
+pub async fn goals(AsCaller(app): AsCaller, Path(id): Path<ActionId>) -> Result<Json<ActionGoals>, Problem> {
     Ok(Json(app.action_goals(&id).await?))
 }
 
@@ -56,7 +54,6 @@ pub async fn goals(State(app): State<App>, Path(id): Path<ActionId>) -> Result<J
 #[serde(deny_unknown_fields)]
 pub struct InterpolateParameters {
     /// Number of points.
-    #[param(minimum = 2, maximum = 10000)]
     n: u32,
 }
 
@@ -66,7 +63,7 @@ pub struct InterpolateParameters {
     responses((status = 200, description = "The curve.", body = Interpolation),
         (status = 409, description = "The goals do not define a curve.")))]
 pub async fn interpolate(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<ActionId>,
     Query(wanted): Query<InterpolateParameters>,
 ) -> Result<Json<Interpolation>, Problem> {
@@ -78,7 +75,7 @@ pub async fn interpolate(
     params(("id" = ActionId, Path), ExportParameters),
     responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream")))]
 pub async fn export(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<ActionId>,
     Query(wanted): Query<ExportParameters>,
 ) -> Result<Response, Problem> {

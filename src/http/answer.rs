@@ -14,8 +14,7 @@ use utoipa::IntoParams;
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct PageParameters {
-    /// Maximum number of items on the page; 50 if absent.
-    #[param(minimum = 1, maximum = 200)]
+    /// Maximum number of items on the page.
     pub page_size: Option<u32>,
     /// `next_page_token` of the previous page.
     pub page_token: Option<String>,

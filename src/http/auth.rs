@@ -6,8 +6,8 @@
 //!   pages. The header needs neither check, because no page of another origin can set it.
 
 use super::problem::Problem;
-use crate::app::Access;
 use crate::app::model::{AppError, ErrorKind};
+use crate::app::{Access, Caller};
 use axum::extract::{Request, State};
 use axum::http::header::{ACCEPT, AUTHORIZATION, CONTENT_TYPE, COOKIE, HOST, LOCATION, ORIGIN, SET_COOKIE};
 use axum::http::{HeaderMap, Method, StatusCode, Uri};
@@ -31,12 +31,15 @@ pub struct Guard {
 }
 
 /// Middleware that rejects requests without credentials.
-pub async fn require(State(guard): State<Guard>, request: Request, next: Next) -> Response {
+pub async fn require(State(guard): State<Guard>, mut request: Request, next: Next) -> Response {
     if OPEN.contains(&request.uri().path()) {
         return next.run(request).await;
     }
     match admit(&guard, &request) {
-        Ok(Admission::Pass) => next.run(request).await,
+        Ok(Admission::Pass(caller)) => {
+            request.extensions_mut().insert(caller);
+            next.run(request).await
+        }
         Ok(Admission::Session(location)) => {
             let port = host(&request).rsplit_once(':').map_or("80", |(_, port)| port);
             let session = guard.access.session();
@@ -48,7 +51,7 @@ pub async fn require(State(guard): State<Guard>, request: Request, next: Next) -
 }
 
 enum Admission {
-    Pass,
+    Pass(Caller),
     Session(String),
 }
 
@@ -58,14 +61,14 @@ fn admit(guard: &Guard, request: &Request) -> Result<Admission, AppError> {
         let bearer = value.to_str().ok().and_then(|text| text.split_once(' '));
         let token = bearer.filter(|(scheme, _)| scheme.eq_ignore_ascii_case("bearer")).map(|(_, token)| token.trim());
         return match token {
-            Some(token) if guard.access.admits_token(token) => Ok(Admission::Pass),
+            Some(token) if guard.access.admits_token(token) => Ok(Admission::Pass(Caller::LocalOperator)),
             _ => Err(unauthenticated("the authorization header does not contain this server's token")),
         };
     }
     if cookies(headers).any(|session| guard.access.admits_session(session)) {
         own_host(guard, request)?;
         own_page(request)?;
-        return Ok(Admission::Pass);
+        return Ok(Admission::Pass(Caller::LocalOperator));
     }
     if let Some(token) = query_token(request.uri()) {
         if request.method() != Method::GET || request.uri().path().starts_with(super::API) {

@@ -1,14 +1,12 @@
 //! `/demonstrations`: look at them, rename, exclude, delete, export; the upload is in `uploads.rs`.
 
 use super::answer::{ExportParameters, PageParameters, file, tagged};
-use super::extract::{IfMatch, Json, Path, Query};
+use super::extract::{AsCaller, IfMatch, Json, Path, Query};
 use super::openapi::Binary;
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{
     DemonstrationId, DemonstrationReport, DemonstrationView, Page, PatchDemonstration, SamplesQuery, SamplesView,
 };
-use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;
 use serde::Deserialize;
@@ -19,7 +17,7 @@ use utoipa::IntoParams;
     params(PageParameters),
     responses((status = 200, description = "One page.", body = Page<DemonstrationView>)))]
 pub async fn list(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Query(page): Query<PageParameters>,
 ) -> Result<Json<Page<DemonstrationView>>, Problem> {
     Ok(Json(app.list_demonstrations(page.into()).await?))
@@ -29,7 +27,7 @@ pub async fn list(
 #[utoipa::path(get, path = "/demonstrations/{id}", operation_id = "getDemonstration", tag = "demonstrations",
     params(("id" = DemonstrationId, Path)),
     responses((status = 200, description = "The demonstration; its revision is the ETag.", body = DemonstrationView)))]
-pub async fn get(State(app): State<App>, Path(id): Path<DemonstrationId>) -> Result<Response, Problem> {
+pub async fn get(AsCaller(app): AsCaller, Path(id): Path<DemonstrationId>) -> Result<Response, Problem> {
     let view = app.get_demonstration(&id).await?;
     Ok(tagged(view.revision, view))
 }
@@ -40,7 +38,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<DemonstrationId>) -> Res
     request_body = PatchDemonstration,
     responses((status = 200, description = "The changed demonstration.", body = DemonstrationView)))]
 pub async fn patch(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<DemonstrationId>,
     IfMatch(revision): IfMatch,
     Json(change): Json<PatchDemonstration>,
@@ -54,7 +52,7 @@ pub async fn patch(
     params(("id" = DemonstrationId, Path), ("If-Match" = Option<String>, Header, description = "ETag to delete.")),
     responses((status = 204, description = "Deleted.")))]
 pub async fn delete(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<DemonstrationId>,
     IfMatch(revision): IfMatch,
 ) -> Result<StatusCode, Problem> {
@@ -73,8 +71,7 @@ pub struct SamplesParameters {
     from: Option<f64>,
     /// Up to this time, seconds after the first sample.
     to: Option<f64>,
-    /// Most points a feature, by minimum and maximum of each bin; 1000 when absent.
-    #[param(minimum = 2, maximum = 20000)]
+    /// Maximum number of points per feature, by minimum and maximum of each bin.
     max_points: Option<u32>,
 }
 
@@ -83,7 +80,7 @@ pub struct SamplesParameters {
     tag = "demonstrations", params(("id" = DemonstrationId, Path), SamplesParameters),
     responses((status = 200, description = "One series a feature.", body = SamplesView)))]
 pub async fn samples(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<DemonstrationId>,
     Query(wanted): Query<SamplesParameters>,
 ) -> Result<Json<SamplesView>, Problem> {
@@ -97,7 +94,7 @@ pub async fn samples(
     tag = "demonstrations", params(("id" = DemonstrationId, Path)),
     responses((status = 200, description = "Findings in the order of the data.", body = DemonstrationReport)))]
 pub async fn report(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<DemonstrationId>,
 ) -> Result<Json<DemonstrationReport>, Problem> {
     Ok(Json(app.demonstration_report(&id).await?))
@@ -109,7 +106,7 @@ pub async fn report(
     responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream"),
         (status = 409, description = "Several streams do not fit into one CSV file.")))]
 pub async fn export(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<DemonstrationId>,
     Query(wanted): Query<ExportParameters>,
 ) -> Result<Response, Problem> {

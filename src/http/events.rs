@@ -7,11 +7,9 @@
 //! - A reader that takes nothing for [`EVICT_AFTER`] loses its connection rather than fill the service's memory.
 
 use super::error::status;
-use super::extract::{Path, Query};
+use super::extract::{AsCaller, Path, Query};
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{AppError, ErrorKind, EventData, JobEvent, JobId};
-use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse as _, Response};
@@ -45,7 +43,7 @@ pub struct EventsParameters {
         (status = 200, description = "The stream; a ping every 15 s.", body = JobEvent, content_type = "text/event-stream"),
         (status = 204, description = "The job is final and there is no later event: do not reconnect.")))]
 pub async fn watch(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<JobId>,
     Query(wanted): Query<EventsParameters>,
     headers: HeaderMap,

@@ -1,15 +1,13 @@
 //! `/experiments`: many runs of many settings, their table, comparisons and files.
 
 use super::answer::{ExportParameters, PageParameters, accepted, file};
-use super::extract::{IdempotencyKey, Json, Path, Query};
+use super::extract::{AsCaller, IdempotencyKey, Json, Path, Query};
 use super::openapi::Binary;
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{
     ExperimentComparison, ExperimentId, ExperimentRequest, ExperimentTable, ExperimentView, JobView, Page, PageQuery,
 };
 use crate::framework::experiment::{Quantity, RunRow};
-use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
@@ -20,7 +18,7 @@ use utoipa::IntoParams;
     request_body = ExperimentRequest,
     responses((status = 202, description = "The job that runs it.", body = JobView)))]
 pub async fn create(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     IdempotencyKey(key): IdempotencyKey,
     Json(request): Json<ExperimentRequest>,
 ) -> Result<Response, Problem> {
@@ -31,7 +29,7 @@ pub async fn create(
 #[utoipa::path(get, path = "/experiments", operation_id = "listExperiments", tag = "experiments",
     params(PageParameters), responses((status = 200, description = "One page.", body = Page<ExperimentView>)))]
 pub async fn list(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Query(page): Query<PageParameters>,
 ) -> Result<Json<Page<ExperimentView>>, Problem> {
     Ok(Json(app.list_experiments(page.into()).await?))
@@ -41,7 +39,7 @@ pub async fn list(
 #[utoipa::path(get, path = "/experiments/{id}", operation_id = "getExperiment", tag = "experiments",
     params(("id" = ExperimentId, Path)),
     responses((status = 200, description = "The experiment.", body = ExperimentView)))]
-pub async fn get(State(app): State<App>, Path(id): Path<ExperimentId>) -> Result<Json<ExperimentView>, Problem> {
+pub async fn get(AsCaller(app): AsCaller, Path(id): Path<ExperimentId>) -> Result<Json<ExperimentView>, Problem> {
     Ok(Json(app.get_experiment(&id).await?))
 }
 
@@ -49,7 +47,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<ExperimentId>) -> Result
 #[utoipa::path(get, path = "/experiments/{id}/table", operation_id = "getExperimentTable", tag = "experiments",
     params(("id" = ExperimentId, Path)),
     responses((status = 200, description = "One entry a cell.", body = ExperimentTable)))]
-pub async fn table(State(app): State<App>, Path(id): Path<ExperimentId>) -> Result<Json<ExperimentTable>, Problem> {
+pub async fn table(AsCaller(app): AsCaller, Path(id): Path<ExperimentId>) -> Result<Json<ExperimentTable>, Problem> {
     Ok(Json(app.experiment_table(&id).await?))
 }
 
@@ -60,8 +58,7 @@ pub async fn table(State(app): State<App>, Path(id): Path<ExperimentId>) -> Resu
 pub struct RowsParameters {
     /// Of this cell only, by its index from 0.
     cell: Option<u32>,
-    /// Most items on the page; 50 when absent.
-    #[param(minimum = 1, maximum = 200)]
+    /// Maximum number of items on the page.
     page_size: Option<u32>,
     /// `next_page_token` of the page before.
     page_token: Option<String>,
@@ -72,7 +69,7 @@ pub struct RowsParameters {
     params(("id" = ExperimentId, Path), RowsParameters),
     responses((status = 200, description = "One page.", body = Page<RunRow>)))]
 pub async fn rows(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<ExperimentId>,
     Query(wanted): Query<RowsParameters>,
 ) -> Result<Json<Page<RunRow>>, Problem> {
@@ -100,7 +97,7 @@ pub struct CompareParameters {
     responses((status = 200, description = "The comparison.", body = ExperimentComparison),
         (status = 409, description = "No seed has finished in both cells yet.")))]
 pub async fn compare(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<ExperimentId>,
     Query(wanted): Query<CompareParameters>,
 ) -> Result<Json<ExperimentComparison>, Problem> {
@@ -112,7 +109,7 @@ pub async fn compare(
     params(("id" = ExperimentId, Path), ExportParameters),
     responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream")))]
 pub async fn export(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<ExperimentId>,
     Query(wanted): Query<ExportParameters>,
 ) -> Result<Response, Problem> {

@@ -4,6 +4,7 @@ use super::problem::Problem;
 use super::{Settings, body};
 use crate::app::model::{AppError, ErrorKind};
 use crate::app::strict_json;
+use crate::app::{App, Caller};
 use axum::extract::{FromRef, FromRequest, FromRequestParts, Request};
 use axum::http::header::{CONTENT_TYPE, IF_MATCH};
 use axum::http::request::Parts;
@@ -39,7 +40,23 @@ impl<T: Serialize> IntoResponse for Json<T> {
     }
 }
 
-/// Path parameters; an id that can be nobody's is not found like one that is nobody's.
+/// The use-cases on behalf of whoever `auth.rs` has admitted.
+pub struct AsCaller(pub App);
+
+impl<S: Send + Sync> FromRequestParts<S> for AsCaller
+where
+    App: FromRef<S>,
+{
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let caller = parts.extensions.get::<Caller>();
+        let caller = caller.ok_or_else(|| AppError::internal("a handler behind no authentication"))?;
+        Ok(Self(App::from_ref(state).as_caller(*caller)))
+    }
+}
+
+/// Path parameters. A malformed id answers 404, exactly like an unknown one.
 #[derive(Debug)]
 pub struct Path<T>(pub T);
 
@@ -81,12 +98,11 @@ impl<S: Send + Sync> FromRequestParts<S> for IdempotencyKey {
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
         let Some(value) = parts.headers.get("idempotency-key") else { return Ok(Self(None)) };
-        let key = value.to_str().ok().filter(|key| !key.is_empty() && key.len() <= 128);
-        let refuse = || {
-            let message = "the Idempotency-Key header must hold 1 to 128 visible ASCII characters";
+        let refuse = |_| {
+            let message = "the Idempotency-Key header must hold visible ASCII characters";
             Problem::from(AppError::new(ErrorKind::Malformed, "invalid_idempotency_key", message))
         };
-        key.map(|key| Self(Some(key.to_owned()))).ok_or_else(refuse)
+        value.to_str().map(|key| Self(Some(key.to_owned()))).map_err(refuse)
     }
 }
 

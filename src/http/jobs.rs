@@ -1,14 +1,12 @@
 //! `/jobs`: submit, look, steer; their events are in `events.rs`.
 
 use super::answer::accepted;
-use super::extract::{IdempotencyKey, Json, Path, Query};
+use super::extract::{AsCaller, IdempotencyKey, Json, Path, Query};
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{
     AppError, CreateJob, ErrorKind, JobFilter, JobId, JobKind, JobView, Page, PageQuery, Validation,
 };
 use crate::framework::job::State as JobState;
-use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
@@ -19,7 +17,7 @@ use utoipa::IntoParams;
     request_body = CreateJob,
     responses((status = 202, description = "The job.", body = JobView)))]
 pub async fn create(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     IdempotencyKey(key): IdempotencyKey,
     Json(request): Json<CreateJob>,
 ) -> Result<Response, Problem> {
@@ -30,7 +28,7 @@ pub async fn create(
 #[utoipa::path(post, path = "/jobs:validate", operation_id = "validateJob", tag = "jobs", params(DryRunParameters),
     request_body = CreateJob, responses((status = 200, description = "Errors, or an estimate.", body = Validation)))]
 pub async fn validate(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Query(wanted): Query<DryRunParameters>,
     Json(request): Json<CreateJob>,
 ) -> Result<Json<Validation>, Problem> {
@@ -56,8 +54,7 @@ pub struct JobsParameters {
     /// Of this kind.
     #[param(inline)]
     kind: Option<JobKind>,
-    /// Most items on the page; 50 when absent.
-    #[param(minimum = 1, maximum = 200)]
+    /// Maximum number of items on the page.
     page_size: Option<u32>,
     /// `next_page_token` of the page before.
     page_token: Option<String>,
@@ -67,7 +64,7 @@ pub struct JobsParameters {
 #[utoipa::path(get, path = "/jobs", operation_id = "listJobs", tag = "jobs", params(JobsParameters),
     responses((status = 200, description = "One page.", body = Page<JobView>)))]
 pub async fn list(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Query(wanted): Query<JobsParameters>,
 ) -> Result<Json<Page<JobView>>, Problem> {
     let filter = JobFilter { states: states(wanted.state.as_deref())?, kind: wanted.kind };
@@ -90,7 +87,7 @@ fn state(name: &str) -> Result<JobState, AppError> {
 /// One job.
 #[utoipa::path(get, path = "/jobs/{id}", operation_id = "getJob", tag = "jobs", params(("id" = JobId, Path)),
     responses((status = 200, description = "The job.", body = JobView)))]
-pub async fn get(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+pub async fn get(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.get_job(&id).await?))
 }
 
@@ -99,7 +96,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<J
     params(("id" = JobId, Path)),
     responses((status = 200, description = "The job.", body = JobView),
         (status = 409, description = "It cannot be paused in its present state.")))]
-pub async fn pause(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+pub async fn pause(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.pause_job(&id).await?))
 }
 
@@ -108,7 +105,7 @@ pub async fn pause(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json
     params(("id" = JobId, Path)),
     responses((status = 200, description = "The job.", body = JobView),
         (status = 409, description = "It is not paused.")))]
-pub async fn resume(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+pub async fn resume(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.resume_job(&id).await?))
 }
 
@@ -117,7 +114,7 @@ pub async fn resume(State(app): State<App>, Path(id): Path<JobId>) -> Result<Jso
     params(("id" = JobId, Path)),
     responses((status = 200, description = "The job.", body = JobView),
         (status = 409, description = "It ended already.")))]
-pub async fn cancel(State(app): State<App>, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
+pub async fn cancel(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.cancel_job(&id).await?))
 }
 
@@ -127,7 +124,7 @@ pub async fn cancel(State(app): State<App>, Path(id): Path<JobId>) -> Result<Jso
         ("Idempotency-Key" = Option<String>, Header, description = "Same key and body: same job.")),
     responses((status = 202, description = "The new job.", body = JobView)))]
 pub async fn clone(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<JobId>,
     IdempotencyKey(key): IdempotencyKey,
 ) -> Result<Response, Problem> {

@@ -34,7 +34,7 @@ use axum::Router;
 use axum::extract::{DefaultBodyLimit, FromRef, Request};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_TYPE, HeaderName, HeaderValue};
-use axum::middleware::{from_fn, from_fn_with_state};
+use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse as _, Response};
 use openapi::Table as _;
 use std::sync::Arc;
@@ -52,25 +52,12 @@ pub const API: &str = "/api/v1";
 /// What the edge itself may be told.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Most bytes of one upload.
-    pub upload_limit_bytes: usize,
-    /// Most bytes of any other body.
+    /// Maximum size of a body that is not an upload, bytes.
     pub body_limit_bytes: usize,
     /// Longest time until the head of an answer; not for uploads and gRPC.
     pub timeout: Duration,
     /// Names of this server beside its numeric addresses and `localhost`.
     pub hosts: Vec<String>,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            upload_limit_bytes: 256 << 20,
-            body_limit_bytes: 16 << 20,
-            timeout: Duration::from_secs(90),
-            hosts: Vec::new(),
-        }
-    }
 }
 
 /// What handlers share.
@@ -159,6 +146,8 @@ pub fn document_json() -> String {
 pub fn router(app: App, access: Access, settings: Settings, grpc: Router) -> Router {
     let guard = auth::Guard { access, hosts: settings.hosts.clone().into() };
     let timeout = TimeoutLayer::with_status_code(StatusCode::REQUEST_TIMEOUT, settings.timeout);
+    let ports = app.ports();
+    let sources = envelope::Sources { clock: Arc::clone(&ports.clock), ids: Arc::clone(&ports.ids) };
     let api = Api { app, settings: Arc::new(settings) };
 
     let resources = resources()
@@ -173,7 +162,10 @@ pub fn router(app: App, access: Access, settings: Settings, grpc: Router) -> Rou
         .method_not_allowed_fallback(|| async { StatusCode::METHOD_NOT_ALLOWED })
         .layer(from_fn_with_state(guard, auth::require));
 
-    let all = rest.merge(grpc).layer(CatchPanicLayer::custom(envelope::panicked)).layer(from_fn(envelope::wrap));
+    let all = rest
+        .merge(grpc)
+        .layer(CatchPanicLayer::custom(envelope::panicked))
+        .layer(from_fn_with_state(sources, envelope::wrap));
     Router::new().fallback_service(all.map_request(verbs::rewrite))
 }
 

@@ -1,17 +1,15 @@
 //! `/recognitions`: which action an observation shows, or none.
 
-use super::extract::Json;
+use super::extract::{AsCaller, Json};
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{RecognitionView, RecognizeRequest};
-use axum::extract::State;
 
 /// Ranks actions by their discrepancy from an observation.
 #[utoipa::path(post, path = "/recognitions", operation_id = "recognize", tag = "recognitions",
     request_body = RecognizeRequest,
     responses((status = 200, description = "Candidates, best first.", body = RecognitionView)))]
 pub async fn create(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Json(request): Json<RecognizeRequest>,
 ) -> Result<Json<RecognitionView>, Problem> {
     Ok(Json(app.recognize(request).await?))

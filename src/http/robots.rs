@@ -1,11 +1,9 @@
 //! `/robots`: a URDF and the part of it that moves; every version is immutable.
 
 use super::answer::{PageParameters, created};
-use super::extract::{Json, Path, Query};
+use super::extract::{AsCaller, Json, Path, Query};
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{CreateRobot, Page, RobotId, RobotView};
-use axum::extract::State;
 use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse as _, Response};
@@ -13,7 +11,7 @@ use axum::response::{IntoResponse as _, Response};
 /// Checks and keeps a robot; a taken name makes a new version of it.
 #[utoipa::path(post, path = "/robots", operation_id = "createRobot", tag = "robots", request_body = CreateRobot,
     responses((status = 201, description = "The robot.", body = RobotView)))]
-pub async fn create(State(app): State<App>, Json(request): Json<CreateRobot>) -> Result<Response, Problem> {
+pub async fn create(AsCaller(app): AsCaller, Json(request): Json<CreateRobot>) -> Result<Response, Problem> {
     let view = app.create_robot(request).await?;
     Ok(created("robots", view.id.clone().as_str(), view))
 }
@@ -22,7 +20,7 @@ pub async fn create(State(app): State<App>, Json(request): Json<CreateRobot>) ->
 #[utoipa::path(get, path = "/robots", operation_id = "listRobots", tag = "robots", params(PageParameters),
     responses((status = 200, description = "One page.", body = Page<RobotView>)))]
 pub async fn list(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Query(page): Query<PageParameters>,
 ) -> Result<Json<Page<RobotView>>, Problem> {
     Ok(Json(app.list_robots(page.into()).await?))
@@ -31,7 +29,7 @@ pub async fn list(
 /// One robot without its URDF.
 #[utoipa::path(get, path = "/robots/{id}", operation_id = "getRobot", tag = "robots", params(("id" = RobotId, Path)),
     responses((status = 200, description = "The robot.", body = RobotView)))]
-pub async fn get(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Json<RobotView>, Problem> {
+pub async fn get(AsCaller(app): AsCaller, Path(id): Path<RobotId>) -> Result<Json<RobotView>, Problem> {
     Ok(Json(app.get_robot(&id).await?))
 }
 
@@ -39,7 +37,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Json
 #[utoipa::path(get, path = "/robots/{id}/urdf", operation_id = "getRobotUrdf", tag = "robots",
     params(("id" = RobotId, Path)),
     responses((status = 200, description = "The URDF.", body = String, content_type = "text/xml")))]
-pub async fn urdf(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Response, Problem> {
+pub async fn urdf(AsCaller(app): AsCaller, Path(id): Path<RobotId>) -> Result<Response, Problem> {
     let urdf = app.robot_urdf(&id).await?;
     Ok(([(CONTENT_TYPE, "text/xml; charset=utf-8")], urdf).into_response())
 }
@@ -48,7 +46,7 @@ pub async fn urdf(State(app): State<App>, Path(id): Path<RobotId>) -> Result<Res
 #[utoipa::path(delete, path = "/robots/{id}", operation_id = "deleteRobot", tag = "robots",
     params(("id" = RobotId, Path)),
     responses((status = 204, description = "Deleted."), (status = 409, description = "A job uses it.")))]
-pub async fn delete(State(app): State<App>, Path(id): Path<RobotId>) -> Result<StatusCode, Problem> {
+pub async fn delete(AsCaller(app): AsCaller, Path(id): Path<RobotId>) -> Result<StatusCode, Problem> {
     app.delete_robot(&id).await?;
     Ok(StatusCode::NO_CONTENT)
 }

@@ -1,12 +1,10 @@
 //! `/runs`: finished repetitions of execution jobs.
 
-use super::extract::{Json, Path, Query};
+use super::extract::{AsCaller, Json, Path, Query};
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{
     Convergence, JobId, Page, PageQuery, RunFilter, RunGoals, RunId, RunTrials, RunView, TrajectoryView,
 };
-use axum::extract::State;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
@@ -18,8 +16,7 @@ pub struct RunsParameters {
     /// Only runs of this job.
     #[param(value_type = Option<String>)]
     job: Option<JobId>,
-    /// Maximum number of items on the page; 50 if absent.
-    #[param(minimum = 1, maximum = 200)]
+    /// Maximum number of items on the page.
     page_size: Option<u32>,
     /// `next_page_token` of the previous page.
     page_token: Option<String>,
@@ -29,7 +26,7 @@ pub struct RunsParameters {
 #[utoipa::path(get, path = "/runs", operation_id = "listRuns", tag = "runs", params(RunsParameters),
     responses((status = 200, description = "One page.", body = Page<RunView>)))]
 pub async fn list(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Query(wanted): Query<RunsParameters>,
 ) -> Result<Json<Page<RunView>>, Problem> {
     let page = PageQuery { page_size: wanted.page_size, page_token: wanted.page_token };
@@ -39,7 +36,7 @@ pub async fn list(
 /// One run.
 #[utoipa::path(get, path = "/runs/{id}", operation_id = "getRun", tag = "runs", params(("id" = RunId, Path)),
     responses((status = 200, description = "The run.", body = RunView)))]
-pub async fn get(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunView>, Problem> {
+pub async fn get(AsCaller(app): AsCaller, Path(id): Path<RunId>) -> Result<Json<RunView>, Problem> {
     Ok(Json(app.get_run(&id).await?))
 }
 
@@ -47,7 +44,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<R
 #[utoipa::path(get, path = "/runs/{id}/goals", operation_id = "getRunGoals", tag = "runs",
     params(("id" = RunId, Path)),
     responses((status = 200, description = "One entry per goal.", body = RunGoals)))]
-pub async fn goals(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunGoals>, Problem> {
+pub async fn goals(AsCaller(app): AsCaller, Path(id): Path<RunId>) -> Result<Json<RunGoals>, Problem> {
     Ok(Json(app.run_goals(&id).await?))
 }
 
@@ -55,7 +52,7 @@ pub async fn goals(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json
 #[utoipa::path(get, path = "/runs/{id}/trials", operation_id = "getRunTrials", tag = "runs",
     params(("id" = RunId, Path)),
     responses((status = 200, description = "In the order they were made.", body = RunTrials)))]
-pub async fn trials(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<RunTrials>, Problem> {
+pub async fn trials(AsCaller(app): AsCaller, Path(id): Path<RunId>) -> Result<Json<RunTrials>, Problem> {
     Ok(Json(app.run_trials(&id).await?))
 }
 
@@ -65,7 +62,6 @@ pub async fn trials(State(app): State<App>, Path(id): Path<RunId>) -> Result<Jso
 #[serde(deny_unknown_fields)]
 pub struct ConvergenceParameters {
     /// Maximum number of points.
-    #[param(minimum = 2)]
     max_points: Option<u32>,
 }
 
@@ -74,7 +70,7 @@ pub struct ConvergenceParameters {
     params(("id" = RunId, Path), ConvergenceParameters),
     responses((status = 200, description = "Points in the order of evaluations.", body = Convergence)))]
 pub async fn convergence(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<RunId>,
     Query(wanted): Query<ConvergenceParameters>,
 ) -> Result<Json<Convergence>, Problem> {
@@ -85,6 +81,6 @@ pub async fn convergence(
 #[utoipa::path(get, path = "/runs/{id}/trajectory", operation_id = "getRunTrajectory", tag = "runs",
     params(("id" = RunId, Path)),
     responses((status = 200, description = "The trajectory with its points.", body = TrajectoryView)))]
-pub async fn trajectory(State(app): State<App>, Path(id): Path<RunId>) -> Result<Json<TrajectoryView>, Problem> {
+pub async fn trajectory(AsCaller(app): AsCaller, Path(id): Path<RunId>) -> Result<Json<TrajectoryView>, Problem> {
     Ok(Json(app.run_trajectory(&id).await?))
 }

@@ -1,19 +1,17 @@
 //! `/trajectories`: checked joint trajectories.
 
 use super::answer::{ExportParameters, file};
-use super::extract::{Json, Path, Query};
+use super::extract::{AsCaller, Json, Path, Query};
 use super::openapi::Binary;
 use super::problem::Problem;
-use crate::app::App;
 use crate::app::model::{TrajectoryId, TrajectoryView};
-use axum::extract::State;
 use axum::response::Response;
 
 /// One trajectory with its points.
 #[utoipa::path(get, path = "/trajectories/{id}", operation_id = "getTrajectory", tag = "trajectories",
     params(("id" = TrajectoryId, Path)),
     responses((status = 200, description = "The trajectory.", body = TrajectoryView)))]
-pub async fn get(State(app): State<App>, Path(id): Path<TrajectoryId>) -> Result<Json<TrajectoryView>, Problem> {
+pub async fn get(AsCaller(app): AsCaller, Path(id): Path<TrajectoryId>) -> Result<Json<TrajectoryView>, Problem> {
     Ok(Json(app.get_trajectory(&id).await?))
 }
 
@@ -23,7 +21,7 @@ pub async fn get(State(app): State<App>, Path(id): Path<TrajectoryId>) -> Result
     responses((status = 200, description = "The file.", body = Binary, content_type = "application/octet-stream"),
         (status = 409, description = "This version plans it differently: run the job again.")))]
 pub async fn export(
-    State(app): State<App>,
+    AsCaller(app): AsCaller,
     Path(id): Path<TrajectoryId>,
     Query(wanted): Query<ExportParameters>,
 ) -> Result<Response, Problem> {

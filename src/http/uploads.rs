@@ -3,29 +3,22 @@
 //! The body is counted while it streams in: one byte above the limit ends it with 413, whatever its declared length.
 
 use super::answer::created;
-use super::extract::{Query, unsupported};
+use super::body;
+use super::extract::{AsCaller, Query, unsupported};
 use super::openapi::Binary;
 use super::problem::Problem;
-use super::{Settings, body};
-use crate::app::App;
 use crate::app::model::{
-    AppError, DemonstrationView, ErrorKind, FieldError, UploadDemonstration, UploadFile, UploadOptions,
+    AppError, DemonstrationView, ErrorKind, FieldError, UploadDemonstration, UploadFile, UploadOptions, limits,
 };
 use crate::framework::Feature;
 use crate::framework::demonstration::ClockPolicy;
 use axum::extract::multipart::{Field, Multipart};
-use axum::extract::{FromRequest as _, Request, State};
+use axum::extract::{FromRequest as _, Request};
 use axum::http::header::{CONTENT_ENCODING, CONTENT_TYPE};
 use axum::response::Response;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use std::sync::Arc;
 use utoipa::{IntoParams, ToSchema};
-
-/// Most files of one upload.
-const MAX_FILES: usize = 64;
-/// Most bytes of a form field that is no file.
-const MAX_FIELD: usize = 64 << 10;
 
 /// How the upload is to be read; a form's fields of the same names come first.
 #[derive(Debug, Default, Deserialize, IntoParams)]
@@ -68,12 +61,11 @@ pub struct UploadForm {
         (Binary = "application/octet-stream"), (UploadForm = "multipart/form-data"))),
     responses((status = 201, description = "The demonstration.", body = DemonstrationView)))]
 pub async fn create(
-    State(app): State<App>,
-    State(settings): State<Arc<Settings>>,
+    AsCaller(app): AsCaller,
     Query(parameters): Query<UploadParameters>,
     request: Request,
 ) -> Result<Response, Problem> {
-    let upload = receive(request, parameters, settings.upload_limit_bytes).await?;
+    let upload = receive(request, parameters, app.upload_limit_bytes()).await?;
     let view = app.upload_demonstration(upload).await?;
     Ok(created("demonstrations", view.id.clone().as_str(), view))
 }
@@ -107,11 +99,11 @@ async fn files(
     limit: usize,
 ) -> Result<Vec<UploadFile>, AppError> {
     let mut files: Vec<UploadFile> = Vec::new();
-    let mut left = limit;
+    let (mut left, most) = (limit, *limits::UPLOAD_FILES.end() as usize);
     while let Some(field) = form.next_field().await.map_err(|error| body::unreadable(&error.body_text()))? {
         if let Some(file_name) = field.file_name().map(str::to_owned) {
-            if files.len() == MAX_FILES {
-                let message = format!("an upload holds at most {MAX_FILES} files");
+            if files.len() == most {
+                let message = format!("an upload has at most {most} files");
                 return Err(AppError::new(ErrorKind::TooLarge, "too_many_files", message));
             }
             let bytes = field_bytes(field, left).await?.ok_or_else(|| body::too_large(limit))?;
@@ -119,7 +111,9 @@ async fn files(
             files.push(UploadFile { file_name, bytes });
         } else {
             let name = field.name().unwrap_or("").to_owned();
-            let bytes = field_bytes(field, MAX_FIELD).await?.ok_or_else(|| body::too_large(MAX_FIELD))?;
+            let bytes = field_bytes(field, limits::MAX_FIELD_BYTES)
+                .await?
+                .ok_or_else(|| body::too_large(limits::MAX_FIELD_BYTES))?;
             let text = String::from_utf8(bytes).map_err(|_| field_error(&name, "not_utf8", "the field is no UTF-8"))?;
             *parameter(parameters, &name)? = Some(text);
         }

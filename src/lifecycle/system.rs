@@ -1,7 +1,8 @@
 //! The system clock and random source, as implementations of the ports.
 
 use crate::app::model::Timestamp;
-use crate::app::ports::{Clock, Ids, SEED_BOUND};
+use crate::app::model::limits::SEED_BOUND;
+use crate::app::ports::{Clock, Ids};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use uuid::Uuid;
 

@@ -25,7 +25,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("jobs", &["jobs", "app", "framework", "reproduce"]),
     ("http", &["http", "app", "framework"]),
     ("grpc", &["grpc", "app", "framework"]),
-    ("config", &["config"]),
+    ("config", &["config", "app"]),
     ("telemetry", &["telemetry", "config"]),
     ("lifecycle", &["lifecycle", "app"]),
     // the inside of the core, from the bottom; its unit tests may name everything

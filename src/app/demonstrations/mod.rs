@@ -12,7 +12,8 @@ use crate::app::model::{
     PageQuery, PatchDemonstration, SamplesQuery, SamplesView, StreamView, UploadDemonstration,
 };
 use crate::app::ports::NewDemonstration;
-use crate::app::{App, check_name, compute, unknown_format};
+use crate::app::{App, check_name, compute, json_pointer, unknown_format};
+use crate::framework::Feature;
 use crate::framework::demonstration::{
     Demonstration, Finding, FindingCode, ReadResult, SourceFile, content_hash, read_files,
 };
@@ -30,7 +31,9 @@ impl App {
         if upload.files.is_empty() {
             return Err(AppError::field("/files", "missing_file", "an upload needs at least one file"));
         }
-        let (demonstration, mut findings, sha256, samples) = compute(move || read(upload)).await??;
+        let upload_limit_bytes = self.upload_limit_bytes();
+        let (demonstration, mut findings, sha256, samples) =
+            compute(move || read(upload, upload_limit_bytes)).await??;
         for twin in self.ports.store.demonstrations_with_content(&sha256).await? {
             let message = format!("the samples are identical to those of {twin}");
             let remedy = "delete one of them, unless it should count twice";
@@ -143,10 +146,10 @@ impl App {
 
 type Read = (Demonstration, Vec<Finding>, String, Vec<u8>);
 
-fn read(upload: UploadDemonstration) -> Result<Read, AppError> {
+fn read(upload: UploadDemonstration, limit_bytes: usize) -> Result<Read, AppError> {
     let files: Vec<SourceFile<'_>> =
         upload.files.iter().map(|file| SourceFile { name: &file.file_name, bytes: &file.bytes }).collect();
-    let options = upload.options.read_options(upload.name);
+    let options = upload.options.read_options(upload.name, limit_bytes);
     let result: ReadResult = read_files(&files, &options);
     let (demonstration, findings) = result.map_err(|findings| refuse(&findings))?;
     let mut content = Sha256::new();
@@ -165,13 +168,8 @@ pub fn pointer(finding: &Finding) -> String {
         ("rows", finding.row.map(|row| row.to_string())),
         ("columns", finding.column.clone()),
     ];
-    let mut pointer = String::new();
-    for (key, value) in places {
-        if let Some(value) = value {
-            pointer = format!("{pointer}/{key}/{}", value.replace('~', "~0").replace('/', "~1"));
-        }
-    }
-    pointer
+    let given = places.into_iter().filter_map(|(key, value)| Some((key, value?)));
+    given.fold(String::new(), |pointer, (key, value)| json_pointer::join(&json_pointer::join(&pointer, key), value))
 }
 
 fn refuse(findings: &[Finding]) -> AppError {
@@ -227,16 +225,11 @@ fn csv(demonstration: &Demonstration) -> Result<Vec<u8>, AppError> {
         return Err(AppError::new(ErrorKind::Conflict, "several_streams", message));
     };
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let header = std::iter::once("time_s".to_owned()).chain(stream.features().iter().map(header));
+    let header = std::iter::once("time_s".to_owned()).chain(stream.features().iter().map(Feature::header));
     writer.write_record(header).map_err(AppError::internal)?;
     for (sample, time_s) in stream.time_s().iter().enumerate() {
         let row = std::iter::once(time_s).chain(stream.row(sample));
         writer.write_record(row.map(ToString::to_string)).map_err(AppError::internal)?;
     }
     writer.into_inner().map_err(|error| AppError::internal(error.to_string()))
-}
-
-/// Column header in the form that the reader parses: `name [unit]`.
-fn header(feature: &crate::framework::Feature) -> String {
-    if feature.unit.is_empty() { feature.name.clone() } else { format!("{} [{}]", feature.name, feature.unit) }
 }

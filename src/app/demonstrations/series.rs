@@ -1,20 +1,16 @@
 //! Samples for plotting: a window of time, thinned without losing peaks.
 
-use crate::app::model::{AppError, SamplesQuery, Series};
-use crate::app::out_of_bounds;
+use crate::app::model::{AppError, SamplesQuery, Series, limits};
+use crate::app::{out_of_bounds, within};
 use crate::framework::demonstration::{Demonstration, Stream};
-
-const DEFAULT_POINTS: u32 = 1000;
 
 /// One series per requested feature.
 ///
 /// # Errors
 /// `Malformed` for invalid bounds and unknown features.
 pub(super) fn series(demonstration: &Demonstration, query: &SamplesQuery) -> Result<Vec<Series>, AppError> {
-    let max_points = query.max_points.unwrap_or(DEFAULT_POINTS);
-    if !(4..=20_000).contains(&max_points) {
-        return Err(out_of_bounds("max_points", max_points, "4 to 20000"));
-    }
+    let max_points = query.max_points.unwrap_or(limits::DEFAULT_POINTS);
+    within("max_points", max_points, &limits::SAMPLE_POINTS)?;
     let known: Vec<&str> = demonstration.features().map(|feature| feature.name.as_str()).collect();
     if let Some(unknown) = query.features.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(out_of_bounds("features", format!("{unknown:?}"), &format!("names of {known:?}")));

@@ -1,18 +1,12 @@
 //! From a request to a plan: looks up presets and the paper's cells, fills in defaults, and checks each cell's problem
 //! as a run would.
 
-use crate::app::model::{AppError, EveryTable, ExperimentRequest, FieldError, PaperTable};
-use crate::app::ports::SEED_BOUND;
+use crate::app::model::{AppError, EveryTable, ExperimentRequest, FieldError, PaperTable, limits};
 use crate::app::{App, chain_text, check_name, compute};
 use crate::framework::execution::Iet;
 use crate::framework::experiment::{CellSpec, ExperimentSpec, MatrixSpec, Plan};
 use crate::reproduce::paper::PaperTables;
 use crate::reproduce::shipped;
-
-/// Maximum number of cells of an experiment; each stores its whole problem.
-const MAX_CELLS: usize = 1000;
-/// Maximum number of runs (cells x repetitions) of an experiment.
-const MAX_RUNS: u64 = 100_000;
 
 impl App {
     /// The request with defaults filled in, and its plan.
@@ -25,8 +19,8 @@ impl App {
         request.name = Some(name.clone());
         let seed = *request.seed.get_or_insert_with(|| self.ports.ids.seed());
         check_size(&request)?;
-        if seed >= SEED_BOUND - u64::from(request.repetitions) {
-            let last = SEED_BOUND - u64::from(request.repetitions);
+        if seed >= limits::SEED_BOUND - u64::from(request.repetitions) {
+            let last = limits::SEED_BOUND - u64::from(request.repetitions);
             return Err(AppError::field("/seed", "out_of_range", format!("seed is {seed}: give one below {last}")));
         }
         compute(move || {
@@ -52,8 +46,8 @@ fn check_size(request: &ExperimentRequest) -> Result<(), AppError> {
         lengths.into_iter().fold(1_usize, usize::saturating_mul)
     };
     let cells = request.cells.len().saturating_add(request.matrix.as_ref().map_or(0, axes));
-    if cells > MAX_CELLS {
-        let detail = format!("{cells} cells exceed the limit of {MAX_CELLS}: split the experiment");
+    if cells > limits::MAX_CELLS as usize {
+        let detail = format!("{cells} cells exceed the limit of {}: split the experiment", limits::MAX_CELLS);
         return Err(AppError::field("/matrix", "out_of_range", detail));
     }
     if request.repetitions == 0 {
@@ -75,8 +69,9 @@ fn plan(request: &ExperimentRequest, name: String, seed: u64) -> Result<Plan, Ap
     let wrong =
         |error: &(dyn std::error::Error + 'static)| AppError::field("", "invalid_experiment", chain_text(error));
     let plan = spec.plan(|name| shipped::preset(name).ok()).map_err(|error| wrong(&error))?;
-    if plan.runs() > MAX_RUNS {
-        let detail = format!("{} runs exceed the limit of {MAX_RUNS}: split the experiment", plan.runs());
+    if plan.runs() > u64::from(limits::MAX_EXPERIMENT_RUNS) {
+        let detail =
+            format!("{} runs exceed the limit of {}: split the experiment", plan.runs(), limits::MAX_EXPERIMENT_RUNS);
         return Err(AppError::field("/repetitions", "out_of_range", detail));
     }
     let mut errors = Vec::new();

@@ -9,16 +9,13 @@ mod validate;
 mod watch;
 
 use crate::app::model::{
-    AppError, CreateJob, ErrorKind, EventPage, JobFilter, JobId, JobResult, JobView, Keyset, Page, PageQuery,
+    AppError, CreateJob, ErrorKind, EventPage, JobFilter, JobId, JobResult, JobView, Keyset, Page, PageQuery, limits,
 };
 use crate::app::ports::{IdempotencyKey, NewJob, Submitted, Transition, Wake};
-use crate::app::{App, out_of_bounds};
+use crate::app::{App, within};
 use crate::framework::job::{Event, State};
 use kind::Resolved;
 use sha2::{Digest as _, Sha256};
-
-/// Most events of one answer.
-const MAX_EVENTS: u32 = 1000;
 
 impl App {
     /// Resolves and submits a job.
@@ -61,6 +58,7 @@ impl App {
         let new = NewJob { view, work: resolved.work, uses: resolved.uses, experiment };
         match self.ports.store.submit(new, key).await? {
             Submitted::Created(job) => {
+                tracing::info!(job.id = %job.id, job.caller = %self.caller(), "job submitted");
                 self.ports.events.publish(Wake::Queued);
                 Ok(job)
             }
@@ -131,21 +129,22 @@ impl App {
         self.submit(resolved, key).await
     }
 
-    /// Events after `after_seq` (0 is from the first), at most `limit` (1 to 1000).
+    /// Events after `after_seq` (0 is from the first), at most `limit`.
     ///
     /// # Errors
     /// `NotFound`; `Malformed` limit.
     pub async fn job_events(&self, id: &JobId, after_seq: u64, limit: u32) -> Result<EventPage, AppError> {
-        if limit == 0 || limit > MAX_EVENTS {
-            return Err(out_of_bounds("limit", limit, "1 to 1000"));
-        }
+        within("limit", limit, &limits::EVENTS)?;
         Ok(self.ports.store.events(id, after_seq, limit).await?)
     }
 }
 
 fn checked_key(key: String, body: &[u8]) -> Result<IdempotencyKey, AppError> {
-    if key.is_empty() || key.len() > 255 || !key.bytes().all(|b| b.is_ascii_graphic() || b == b' ') {
-        let message = format!("an idempotency key has 1 to 255 visible ASCII characters, this one has {}", key.len());
+    if !limits::IDEMPOTENCY_KEY_CHARS.contains(&limits::count(key.len()))
+        || !key.bytes().all(|b| b.is_ascii_graphic() || b == b' ')
+    {
+        let bounds = limits::in_words(&limits::IDEMPOTENCY_KEY_CHARS);
+        let message = format!("an idempotency key has {bounds} visible ASCII characters, this one has {}", key.len());
         return Err(AppError::new(ErrorKind::Malformed, "invalid_idempotency_key", message));
     }
     Ok(IdempotencyKey { key, body_sha256: hex::encode(Sha256::digest(body)) })

@@ -1,13 +1,10 @@
 //! Dry runs: is a job acceptable, and what would it cost?
 
 use super::kind;
-use crate::app::model::{AppError, CostEstimate, CreateJob, ErrorKind, Validation};
+use crate::app::model::{AppError, CostEstimate, CreateJob, ErrorKind, Validation, limits};
 use crate::app::{App, compute};
 use crate::framework::execution::{Chosen, ROBOT_TRIAL_S};
 use std::sync::Arc;
-
-/// Longest accepted duration of a trial on a robot: one day.
-const MAX_TRIAL_S: f64 = 86_400.0;
 
 impl App {
     /// Checks a job as [`App::create_job`] would, without creating it, and estimates its cost. A trial on a robot is
@@ -32,8 +29,9 @@ impl App {
         request: CreateJob,
         robot_trial_s: f64,
     ) -> Result<(CostEstimate, Option<Chosen>), AppError> {
-        if !(robot_trial_s > 0.0 && robot_trial_s <= MAX_TRIAL_S) {
-            let detail = format!("robot_trial_s is {robot_trial_s}: give a time above 0 and up to {MAX_TRIAL_S} s");
+        if !(robot_trial_s > 0.0 && robot_trial_s <= limits::MAX_TRIAL_S) {
+            let detail =
+                format!("robot_trial_s is {robot_trial_s}: give a time above 0 and up to {} s", limits::MAX_TRIAL_S);
             return Err(AppError::field("/robot_trial_s", "out_of_range", detail));
         }
         let resolved = kind::resolve(self, request).await?;

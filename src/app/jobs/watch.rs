@@ -2,9 +2,8 @@
 //!
 //! A follower reads the store in pages and is woken by hints; it holds at most one page, however slow its reader is.
 
-use super::MAX_EVENTS;
 use crate::app::App;
-use crate::app::model::{AppError, EventData, JobEvent, JobId, JobView};
+use crate::app::model::{AppError, EventData, JobEvent, JobId, JobView, limits};
 use crate::app::ports::Wake;
 use futures_util::StreamExt as _;
 use futures_util::stream::{self, BoxStream};
@@ -15,8 +14,6 @@ use tokio::time::timeout;
 
 /// Maximum delay caused by a lost hint.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
-/// Maximum time of a bounded wait.
-const MAX_WAIT: Duration = Duration::from_mins(1);
 
 struct Follower {
     app: App,
@@ -37,7 +34,7 @@ impl Follower {
             if self.end {
                 return Ok(None);
             }
-            let page = self.app.job_events(&self.id, self.after_seq, MAX_EVENTS).await?;
+            let page = self.app.job_events(&self.id, self.after_seq, *limits::EVENTS.end()).await?;
             if page.resync {
                 self.after_seq = page.last_seq;
                 self.end = self.app.get_job(&self.id).await?.state.is_final();
@@ -101,7 +98,7 @@ impl App {
     /// `NotFound`.
     pub async fn wait_job(&self, id: &JobId, after_seq: u64, limit: Duration) -> Result<JobView, AppError> {
         let mut wakes = self.ports.events.subscribe();
-        let time_is_up = tokio::time::sleep(limit.min(MAX_WAIT));
+        let time_is_up = tokio::time::sleep(limit.min(Duration::from_millis(u64::from(limits::MAX_WAIT_MS))));
         tokio::pin!(time_is_up);
         loop {
             let job = self.get_job(id).await?;

@@ -91,7 +91,7 @@ pub struct GeneralizationRequest {
     pub name: String,
     /// Ids of one or more demonstrations, each once.
     pub demonstrations: Vec<DemonstrationId>,
-    /// T_min, the minimum time between goals, seconds (> 0).
+    /// T_min, the minimum time between goals, seconds.
     pub t_min_s: f64,
     /// How samples are weighted.
     #[serde(default)]
@@ -119,10 +119,10 @@ pub struct ExecutionRequest {
     pub world: WorldId,
     /// Method, metric and stopping criteria.
     pub execution: ExecutionSpec,
-    /// Seed of the first repetition, below 2^53; drawn and recorded if absent. Repetition r uses seed + r.
+    /// Seed of the first repetition; drawn and recorded if absent. Repetition r uses seed + r.
     #[serde(default)]
     pub seed: Option<u64>,
-    /// Number of runs, 1 to 1000.
+    /// Number of runs.
     #[serde(default = "one")]
     pub repetitions: u32,
     /// Slows the job down to about this many evaluations per second, so that it can be watched.

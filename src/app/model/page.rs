@@ -1,19 +1,15 @@
 //! Keyset paging: a page ends with an opaque token that encodes the last item seen and the query it belongs to.
 
 use super::error::{AppError, ErrorKind};
+use super::limits;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use utoipa::ToSchema;
 
-/// Number of items on a page by default.
-pub const DEFAULT_PAGE_SIZE: u32 = 50;
-/// Maximum number of items on a page.
-pub const MAX_PAGE_SIZE: u32 = 200;
-
 /// Page of a list, as requested.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct PageQuery {
-    /// Maximum number of items, 1 to 200; 50 if absent.
+    /// Maximum number of items; [`limits::DEFAULT_PAGE_SIZE`] if absent.
     pub page_size: Option<u32>,
     /// The `next_page_token` of the previous page; absent or empty for the first page.
     pub page_token: Option<String>,
@@ -43,14 +39,14 @@ impl Keyset {
     /// is rejected together with other filters.
     ///
     /// # Errors
-    /// `Malformed` for a size outside 1..=200 or a token of another list.
+    /// `Malformed` for a size outside [`limits::PAGE_SIZE`] or a token of another list.
     pub fn new(query: &PageQuery, filter: &str) -> Result<Self, AppError> {
-        let limit = query.page_size.unwrap_or(DEFAULT_PAGE_SIZE);
-        if limit == 0 || limit > MAX_PAGE_SIZE {
+        let limit = query.page_size.unwrap_or(limits::DEFAULT_PAGE_SIZE);
+        if !limits::PAGE_SIZE.contains(&limit) {
             return Err(AppError::new(
                 ErrorKind::Malformed,
                 "invalid_page_size",
-                format!("page_size is {limit}: give 1 to {MAX_PAGE_SIZE}"),
+                format!("page_size is {limit}: give {}", limits::in_words(&limits::PAGE_SIZE)),
             ));
         }
         let filter_hash = hex::encode(&Sha256::digest(filter.as_bytes())[..4]);

@@ -14,7 +14,7 @@ pub struct SamplesQuery {
     pub from_s: Option<f64>,
     /// End of the window, seconds after the first sample of the demonstration.
     pub to_s: Option<f64>,
-    /// Maximum number of points per feature (4 to 20000; 1000 if absent): the minimum and maximum of each bin.
+    /// Maximum number of points per feature: the minimum and maximum of each bin.
     pub max_points: Option<u32>,
 }
 

@@ -1,7 +1,7 @@
 //! Uploads of demonstrations.
 
 use crate::framework::Feature;
-use crate::framework::demonstration::{ClockPolicy, Format, ReadOptions};
+use crate::framework::demonstration::{ClockPolicy, Format, Limits, ReadOptions};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use utoipa::ToSchema;
@@ -45,9 +45,9 @@ pub struct UploadOptions {
 }
 
 impl UploadOptions {
-    /// Converts to the reader's options, with the service's limits.
+    /// Converts to the reader's options, with at most `limit_bytes` of all files together.
     #[must_use]
-    pub fn read_options(self, name: Option<String>) -> ReadOptions {
+    pub fn read_options(self, name: Option<String>, limit_bytes: usize) -> ReadOptions {
         ReadOptions {
             name,
             format: self.format,
@@ -56,6 +56,7 @@ impl UploadOptions {
             features: self.features,
             stream_features: self.stream_features,
             units: self.units,
+            limits: Limits { bytes: limit_bytes as u64, ..Limits::default() },
             ..ReadOptions::default()
         }
     }

@@ -12,9 +12,9 @@ pub use clock::Clock;
 pub use clock::TestClock;
 pub use evaluator::{Evaluator, EvaluatorError, Evaluators, RunContext, TrialId, Trials};
 pub use events::{Events, LocalEvents, Wake};
+pub use ids::Ids;
 #[cfg(test)]
 pub use ids::TestIds;
-pub use ids::{Ids, SEED_BOUND};
 #[cfg(test)]
 pub use store::MemoryStore;
 pub use store::{

@@ -2,6 +2,7 @@
 
 use super::table::{Findings, Table, quote};
 use super::{Finding, FindingCode, Format};
+use crate::{MAX_DISPLAY_NAME_CHARS, is_display_name, is_hidden};
 
 /// Decodes UTF-8 without NUL and other control characters; a byte order mark is dropped.
 pub(super) fn decode<'a>(bytes: &'a [u8], stream: &str, findings: &mut Findings) -> Option<&'a str> {
@@ -80,7 +81,7 @@ pub(super) fn check_names(table: &Table, findings: &mut Findings) {
         if !plain(&feature.name) {
             findings.push(bad("feature name", &feature.name, rule).in_stream(stream).in_column(&column));
         }
-        if feature.unit.chars().count() > 32 || feature.unit.chars().any(is_invisible) {
+        if feature.unit.chars().count() > 32 || feature.unit.chars().any(is_hidden) {
             let rule = "at most 32 visible characters";
             findings.push(bad("unit", &feature.unit, rule).in_stream(stream).in_column(&column));
         }
@@ -99,18 +100,13 @@ pub(super) fn check_names(table: &Table, findings: &mut Findings) {
     }
 }
 
-/// Checks a display name: 1 to 256 visible characters without direction overrides.
+/// Rejects a display name that is too long or holds hidden characters.
 pub(super) fn check_display_name(name: &str, findings: &mut Findings) {
-    if name.is_empty() || name.chars().count() > 256 || name.chars().any(is_invisible) {
+    if !is_display_name(name) {
         findings.push(Finding::error(
             FindingCode::BadName,
-            format!("demonstration name {} is not 1 to 256 visible characters", quote(name)),
+            format!("demonstration name {} is not 1 to {MAX_DISPLAY_NAME_CHARS} visible characters", quote(name)),
             "choose another name",
         ));
     }
-}
-
-fn is_invisible(letter: char) -> bool {
-    letter.is_control()
-        || matches!(letter, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }

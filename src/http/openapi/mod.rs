@@ -1,8 +1,9 @@
 //! The OpenAPI 3.1 document, derived from the router: what is not in the URL table is neither served nor documented.
 //!
 //! The handlers and their types say what is particular to them; [`finish`] adds what follows from that for client
-//! generators: names for the variants of unions, the problems of each operation, examples.
+//! generators: names for the variants of unions, bounds, the problems of each operation, examples.
 
+mod bounds;
 mod examples;
 mod problems;
 mod schemas;
@@ -86,9 +87,11 @@ impl<S: Clone + Send + Sync + 'static> Table<S> for OpenApiRouter<S> {
 pub fn finish(document: &OpenApi) -> Value {
     let mut document = serde_json::to_value(document).unwrap_or_default();
     if let Some(schemas) = document["components"]["schemas"].as_object_mut() {
+        bounds::add_to_schemas(schemas);
         unions::name_variants(schemas);
     }
     schemas::rename_pages(&mut document);
+    bounds::add_to_parameters(&mut document);
     problems::add(&mut document);
     examples::add(&mut document);
     schemas::remove_unused(&mut document);

@@ -6,7 +6,7 @@
 use super::super::error::of_status;
 use super::super::problem::{CONTENT_TYPE_PROBLEM, Problem};
 use super::schemas::reference;
-use crate::app::model::{AppError, ErrorKind, FieldError};
+use crate::app::model::{AppError, ErrorKind, FieldError, limits};
 use axum::http::StatusCode;
 use serde_json::{Value, json};
 
@@ -32,8 +32,9 @@ impl Common {
 fn common() -> [Common; 12] {
     let no_token = "send the token that `cgda serve` printed as `authorization: Bearer TOKEN`";
     let forbidden = "a request with the session cookie must come from this server's own pages";
-    let page_size = "page_size is 0: give 1 to 200";
-    let repetitions = FieldError::new("/repetitions", "out_of_range", "repetitions is 0: give 1 to 1000");
+    let page_size = format!("page_size is 0: give {}", limits::in_words(&limits::PAGE_SIZE));
+    let repetitions = format!("repetitions is 0: give {}", limits::in_words(&limits::REPETITIONS));
+    let repetitions = FieldError::new("/repetitions", "out_of_range", repetitions);
     let revision = "dem_0193c5a1f2b87c3d9e4f5a6b7c8d9e0f has revision 2, not 1";
     let disk = "no space is left to write: nothing was changed; free space on the disk of the data directory";
     let error = |kind, code, message: &str| AppError::new(kind, code, message);
@@ -41,7 +42,7 @@ fn common() -> [Common; 12] {
         Common::new(
             "Malformed",
             "The request cannot be read: its JSON, a header or a parameter of its query.",
-            error(ErrorKind::Malformed, "invalid_query", page_size),
+            error(ErrorKind::Malformed, "invalid_query", &page_size),
         ),
         Common::new(
             "Unauthenticated",

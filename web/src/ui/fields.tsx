@@ -16,6 +16,14 @@ interface NumberProps extends FieldProps {
   step?: number | "any";
 }
 
+/** The bounds of a request's field as those of an input. */
+export function within(bounds: { minimum?: number; maximum?: number }): Pick<NumberProps, "min" | "max"> {
+  return {
+    ...(bounds.minimum === undefined ? {} : { min: bounds.minimum }),
+    ...(bounds.maximum === undefined ? {} : { max: bounds.maximum }),
+  };
+}
+
 export function NumberField({ label, hint, value, onChange, required = false, step = 1, min, max }: NumberProps) {
   const id = useId();
   return (

@@ -6,15 +6,12 @@ use super::cost::{PREVIEW_TIME, TrialCost};
 use crate::app::jobs::reference::look_up;
 use crate::app::jobs::trial_reuse::setup_key;
 use crate::app::model::{
-    AppError, CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, FieldError, JobProgress, Work,
+    AppError, CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, FieldError, JobProgress, Work, limits,
 };
-use crate::app::ports::{SEED_BOUND, Usage};
+use crate::app::ports::Usage;
 use crate::app::{App, chain_text, check_name, compute};
 use crate::framework::execution::{Iet, Problem};
 use crate::framework::generalization::Goals;
-
-/// Maximum number of repetitions of one job.
-const MAX_REPETITIONS: u32 = 1000;
 
 /// Checks and completes a request.
 ///
@@ -95,15 +92,16 @@ pub(super) fn estimate(work: &ExecutionWork, cost: TrialCost<'_>) -> Result<Cost
 fn bounds(request: &ExecutionRequest) -> Vec<FieldError> {
     let mut errors = Vec::new();
     let mut wrong = |pointer: &str, detail: String| errors.push(FieldError::new(pointer, "out_of_range", detail));
-    if !(1..=MAX_REPETITIONS).contains(&request.repetitions) {
-        wrong("/repetitions", format!("repetitions is {}: give 1 to {MAX_REPETITIONS}", request.repetitions));
+    if !limits::REPETITIONS.contains(&request.repetitions) {
+        let bounds = limits::in_words(&limits::REPETITIONS);
+        wrong("/repetitions", format!("repetitions is {}: give {bounds}", request.repetitions));
     }
-    let last = SEED_BOUND - u64::from(MAX_REPETITIONS);
-    if let Some(seed) = request.seed.filter(|seed| *seed >= last) {
-        wrong("/seed", format!("seed is {seed}: give one below {last}"));
+    if let Some(seed) = request.seed.filter(|seed| !limits::FIRST_SEED.contains(seed)) {
+        wrong("/seed", format!("seed is {seed}: give {}", limits::in_words(&limits::FIRST_SEED)));
     }
-    if let Some(rate) = request.max_evaluations_per_s.filter(|rate| !(rate.is_finite() && *rate >= 0.1)) {
-        wrong("/max_evaluations_per_s", format!("max_evaluations_per_s is {rate}: give 0.1 or more"));
+    let slowest = limits::MIN_EVALUATIONS_PER_S;
+    if let Some(rate) = request.max_evaluations_per_s.filter(|rate| !(rate.is_finite() && *rate >= slowest)) {
+        wrong("/max_evaluations_per_s", format!("max_evaluations_per_s is {rate}: give {slowest} or more"));
     }
     if let Some(error) = request.name.as_deref().and_then(|name| check_name("/name", name).err()) {
         errors.extend(error.details);

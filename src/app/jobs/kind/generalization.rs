@@ -2,13 +2,12 @@
 
 use super::Resolved;
 use crate::app::jobs::reference::missing;
-use crate::app::model::{AppError, CostEstimate, CreateJob, FieldError, GeneralizationRequest, JobProgress, Work};
+use crate::app::model::{
+    AppError, CostEstimate, CreateJob, FieldError, GeneralizationRequest, JobProgress, Work, limits,
+};
 use crate::app::ports::Usage;
 use crate::app::{App, check_name};
 use std::collections::BTreeSet;
-
-/// Maximum number of demonstrations of one action.
-const MAX_DEMONSTRATIONS: usize = 1000;
 
 /// Checks a request.
 ///
@@ -21,13 +20,14 @@ pub(super) async fn resolve(app: &App, request: GeneralizationRequest) -> Result
         let detail = format!("t_min_s is {}: give a time above 0", request.t_min_s);
         errors.push(FieldError::new("/t_min_s", "out_of_range", detail));
     }
-    if request.demonstrations.is_empty() || request.demonstrations.len() > MAX_DEMONSTRATIONS {
+    let most = *limits::DEMONSTRATIONS.end() as usize;
+    if request.demonstrations.is_empty() || request.demonstrations.len() > most {
         let count = request.demonstrations.len();
-        let detail = format!("{count} demonstrations are named: give 1 to {MAX_DEMONSTRATIONS}");
+        let detail = format!("{count} demonstrations are named: give 1 to {most}");
         errors.push(FieldError::new("/demonstrations", "out_of_range", detail));
     }
     let mut seen = BTreeSet::new();
-    for (index, id) in request.demonstrations.iter().enumerate().take(MAX_DEMONSTRATIONS) {
+    for (index, id) in request.demonstrations.iter().enumerate().take(most) {
         let pointer = format!("/demonstrations/{index}");
         if !seen.insert(id) {
             errors.push(FieldError::new(pointer, "duplicate", format!("{id} is named twice: name it once")));

@@ -2,14 +2,17 @@
 
 import { useState, type SyntheticEvent } from "react";
 import { useNavigate, useSearchParams } from "react-router";
+import { bounds } from "../../api/bounds";
 import { useCreateJob } from "../../api/mutations";
 import { useActions, useRobots, useWorlds } from "../../api/queries";
 import { Card, PageHead } from "../../ui/basics";
 import { Problem } from "../../ui/feedback";
-import { NumberField, SelectField } from "../../ui/fields";
+import { NumberField, SelectField, within } from "../../ui/fields";
 import { DryRun } from "./DryRun";
 import { EMPTY_FORM, requestOf, suggested, type JobForm } from "./jobForm";
 import { MethodCard, RealityCard } from "./MethodCard";
+
+const limits = bounds.CreateJobExecution;
 
 export function NewJobPage() {
   const [search] = useSearchParams();
@@ -47,9 +50,9 @@ export function NewJobPage() {
           </Card>
           <Card title="Repetitions">
             <div className="fields">
-              <NumberField label="Runs" hint="Run r uses seed + r." min={1} max={10_000} required {...text("repetitions")} />
-              <NumberField label="Seed" hint="Drawn and recorded if empty; the same seed gives the same result, bit for bit." min={0} {...text("seed")} />
-              <NumberField label="Max. evaluations per second" hint="Slows the simulation down so that it can be watched." min={1} step="any" {...text("pace")} />
+              <NumberField label="Runs" hint="Run r uses seed + r." {...within(limits.repetitions)} required {...text("repetitions")} />
+              <NumberField label="Seed" hint="Drawn and recorded if empty; the same seed gives the same result, bit for bit." {...within(limits.seed)} {...text("seed")} />
+              <NumberField label="Max. evaluations per second" hint="Slows the simulation down so that it can be watched." {...within(limits.max_evaluations_per_s)} step="any" {...text("pace")} />
             </div>
           </Card>
         </div>
