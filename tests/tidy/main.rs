@@ -33,13 +33,16 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("framework/name", &[]),
     ("framework/random", &[]),
     ("framework/job", &[]),
-    ("framework/demonstration", &["demonstration", "Feature", "is_hidden"]),
+    (
+        "framework/demonstration",
+        &["demonstration", "Feature", "is_display_name", "is_hidden", "MAX_DISPLAY_NAME_CHARS"],
+    ),
     ("framework/generalization", &["generalization", "demonstration", "Feature"]),
     ("framework/recognition", &["recognition", "generalization", "demonstration", "Feature"]),
     ("framework/robot", &["robot", "is_hidden"]),
     ("framework/trajectory", &["trajectory", "robot"]),
     ("framework/world", &["world", "trajectory", "robot", "random", "Feature"]),
-    ("framework/method", &["method", "constraint", "world", "robot", "random"]),
+    ("framework/method", &["method", "constraint", "world", "robot", "random", "infinite_as_null"]),
     ("framework/constraint", &["constraint", "method", "robot", "random"]),
     (
         "framework/execution",

@@ -10,7 +10,7 @@
 //! optimiser as failed, and the optimiser's own stagnation ends the search.
 //!
 //! # Invariants
-//! - The judge is no optimiser and holds none: each call is given the optimiser it judges, always the same one.
+//! - The judge is not an optimiser and holds none: each call is given the optimiser it judges, always the same one.
 //! - The bits do not depend on how many candidates are asked for at once: proposals are judged one by one. If a
 //!   judgement depends on earlier executions (repairing, operators), candidates are also handed out one by one.
 //! - `state.waiting` lists the candidates handed out and not yet reported back, with their violations if infeasible.
@@ -275,7 +275,7 @@ impl Judge {
         }
     }
 
-    /// Why the search has ended by its own rules; `None` while it goes on.
+    /// Reason why the search ended by its own rules; `None` while it goes on.
     #[must_use]
     pub fn stop(&self, optimizer: &dyn Optimizer) -> Option<StopReason> {
         let reason = optimizer.stop()?;
@@ -295,7 +295,7 @@ impl Judge {
         self.state.waiting.iter().any(|w| w.id == id && w.violations.is_empty())
     }
 
-    /// Where fitness values come from that were no evaluations, `optimizer`'s included.
+    /// Sources of fitness values other than evaluations, those of `optimizer` included.
     #[must_use]
     pub fn tally(&self, optimizer: &dyn Optimizer) -> Tally {
         let Tally { inherited, granule, .. } = optimizer.tally();

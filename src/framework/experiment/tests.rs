@@ -97,7 +97,7 @@ fn a_method_is_taken_with_the_preset_s_parameters() {
 
 #[rstest::rstest]
 #[case(|s: &mut ExperimentSpec| s.repetitions = 0, "3 cells of 0 repetitions")]
-#[case(|s: &mut ExperimentSpec| s.repetitions = u32::MAX, "more than 1000000 runs")]
+#[case(|s: &mut ExperimentSpec| s.repetitions = u32::MAX, "exceed the limit of 1000000 runs")]
 #[case(|s: &mut ExperimentSpec| s.seed = u64::MAX, "seed 18446744073709551615")]
 #[case(|s: &mut ExperimentSpec| s.cells[0].preset = "nothing".into(), "preset \"nothing\"")]
 #[case(|s: &mut ExperimentSpec| s.cells.push(s.cells[0].clone()), "cells 0 and 1")]

@@ -1,6 +1,6 @@
 //! `auto`: the wishes by which a method is chosen for a problem.
 
-use super::contract::{Effects, Knowledge, Method, MethodKind, Needs, Profile, Scope, SimulatorUse};
+use super::contract::{Effects, Knowledge, Method, Needs, Profile, Scope, SimulatorUse};
 use super::parameters::parameters;
 
 parameters! {
@@ -23,10 +23,6 @@ impl Method for AutoSpec {
             learns_from_earlier_runs: false,
             needs: Needs { effects: Effects::Any, reset: false, simulator: SimulatorUse::Optional },
         }
-    }
-
-    fn kind(&self) -> Option<MethodKind> {
-        None
     }
 
     fn assume(&mut self, known: &Knowledge) {

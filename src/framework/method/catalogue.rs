@@ -1,13 +1,14 @@
 //! The catalogue: one row per method, from which everything that knows methods by name follows.
 //!
-//! A row holds the method's sentence, the type of its parameters, its name and its label. Parsing, checking, starting and
+//! A row holds the method's sentence, the type of its parameters, its name, its label and how far it plans. Parsing, checking, starting and
 //! resuming, the help of the command line and the ranges of the OpenAPI document are made of it.
 //!
 //! # Architecture Invariants
 //! - Nothing outside of this file matches on every method; what a method is or does is asked of the method.
 
 use super::auto::AutoSpec;
-use super::contract::{Knowledge, Method, MethodKind, Profile, Scope};
+use super::contract::{Knowledge, Method, Profile, Scope};
+use super::kind::MethodKind;
 use super::parameters::{Parameter, Parameters, sentence};
 use super::per_goal::{AffgPsoSpec, CmaEsSpec, DeSpec, FiPsoSpec, PsoSpec, SstSpec};
 use super::per_goal::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, SearchSpace};
@@ -36,8 +37,22 @@ pub struct MethodEntry {
     pub schema: &'static str,
 }
 
+/// The method of some parameters, by the last word of its row.
+macro_rules! runs {
+    (per_goal, $spec:ident) => {
+        Some(MethodKind::PerGoal(Box::new($spec.clone())))
+    };
+    (whole_run, $spec:ident) => {
+        Some(MethodKind::WholeRun(Box::new($spec.clone())))
+    };
+    (chosen, $spec:ident) => {{
+        let _ = $spec;
+        None
+    }};
+}
+
 macro_rules! catalogue {
-    ($($(#[doc = $sentence:literal])+ $variant:ident($spec:ident) = $name:literal, $label:literal;)+) => {
+    ($($(#[doc = $sentence:literal])+ $variant:ident($spec:ident) = $name:literal, $label:literal, $runs:ident;)+) => {
         /// A method with its parameters; `name` picks one.
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
         #[serde(tag = "name", rename_all = "snake_case")]
@@ -66,6 +81,14 @@ macro_rules! catalogue {
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$variant(_) => $name,)+
+                }
+            }
+
+            /// The method at work with these parameters; `None` for `auto`, which stands for another.
+            #[must_use]
+            pub fn kind(&self) -> Option<MethodKind> {
+                match self {
+                    $(Self::$variant(spec) => runs!($runs, spec),)+
                 }
             }
 
@@ -102,32 +125,32 @@ macro_rules! catalogue {
 catalogue! {
     /// Chosen for the features, the world and the constraints when the job is submitted; the choice and its reason are
     /// recorded.
-    Auto(AutoSpec) = "auto", "Automatic";
+    Auto(AutoSpec) = "auto", "Automatic", chosen;
     /// The paper's steady-state tournament: thousands of evaluations, for simulation.
-    Sst(SstSpec) = "sst", "SST";
+    Sst(SstSpec) = "sst", "SST", per_goal;
     /// Particle swarm: thousands of evaluations, for simulation.
-    Pso(PsoSpec) = "pso", "PSO";
+    Pso(PsoSpec) = "pso", "PSO", per_goal;
     /// Particle swarm with fitness inheritance: fewer evaluations than PSO, farther from the goals.
-    FiPso(FiPsoSpec) = "fi_pso", "FI-PSO";
+    FiPso(FiPsoSpec) = "fi_pso", "FI-PSO", per_goal;
     /// Particle swarm with adaptive fuzzy fitness granulation: fewer evaluations than PSO, farther from the goals.
-    AffgPso(AffgPsoSpec) = "affg_pso", "AFFG-PSO";
+    AffgPso(AffgPsoSpec) = "affg_pso", "AFFG-PSO", per_goal;
     /// Covariance matrix adaptation, begun at the previous goal's result: hundreds of evaluations, for features that jump
     /// or a robot beyond modelling.
-    CmaEs(CmaEsSpec) = "cma_es", "CMA-ES";
+    CmaEs(CmaEsSpec) = "cma_es", "CMA-ES", per_goal;
     /// Differential evolution: thousands of evaluations, for simulation; few parameters, and seldom caught in a valley.
-    De(DeSpec) = "de", "DE";
+    De(DeSpec) = "de", "DE", per_goal;
     /// Gauss-Newton with Broyden's Jacobian, carried over from goal to goal, a classical yardstick: few evaluations where
     /// it converges, with some bad runs.
-    Broyden(BroydenSpec) = "broyden", "Broyden";
+    Broyden(BroydenSpec) = "broyden", "Broyden", whole_run;
     /// One Gaussian process of the feature map plans the whole run: a dozen evaluations. Each trial is the pose expected
     /// nearest to a goal; a goal out of reach is reported with its best residual.
-    Model(ModelSpec) = "model", "MODEL-IET";
+    Model(ModelSpec) = "model", "MODEL-IET", whole_run;
     /// A surface with the described robot as an uncertain simulator: about one evaluation per cell. Many slightly different
     /// robots vote for the next pose, and each trial reweighs them.
-    Particle(ParticleSpec) = "particle", "PARTICLE-IET";
+    Particle(ParticleSpec) = "particle", "PARTICLE-IET", whole_run;
     /// A surface with nothing known: each trial goes where past trials leave the best chance of a new cell. About four times
     /// the evaluations of PARTICLE-IET.
-    Search(CoverSpec) = "search", "SEARCH-IET";
+    Search(CoverSpec) = "search", "SEARCH-IET", whole_run;
 }
 
 impl MethodSpec {
@@ -168,12 +191,6 @@ impl MethodSpec {
     /// Takes what is known of robot and sensors, if the method can use it.
     pub fn assume(&mut self, known: &Knowledge) {
         self.method_mut().assume(known);
-    }
-
-    /// The method at work with these parameters; `None` for `auto`, which stands for another.
-    #[must_use]
-    pub fn kind(&self) -> Option<MethodKind> {
-        self.method().kind()
     }
 
     /// A fresh search for one goal; `goal` separates the goals of one seed.

@@ -1,9 +1,7 @@
 //! The contract between a method and the framework: what it is, what it needs, how its parameters are checked.
 
 use super::parameters::Parameters;
-use super::per_goal::PerGoalMethod;
 use super::range::OutOfRange;
-use super::whole_run::WholeRunMethod;
 use crate::world::WorldProperties;
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -77,14 +75,6 @@ pub struct Knowledge {
     pub noise: Option<f64>,
 }
 
-/// A method that can be run, by how far it plans.
-pub enum MethodKind {
-    /// One search per goal, goal after goal.
-    PerGoal(Box<dyn PerGoalMethod>),
-    /// All goals at once.
-    WholeRun(Box<dyn WholeRunMethod>),
-}
-
 /// The parameters of a method; implemented beside its algorithm.
 pub trait Method: Parameters {
     /// What the method is and needs.
@@ -111,9 +101,6 @@ pub trait Method: Parameters {
     fn assume(&mut self, known: &Knowledge) {
         let _ = known;
     }
-
-    /// The method at work with these parameters; `None` if it stands for another.
-    fn kind(&self) -> Option<MethodKind>;
 }
 
 impl Needs {

@@ -18,7 +18,7 @@ use super::{
     SearchSpace, StopReason,
 };
 use crate::infinite_as_null;
-use crate::method::contract::{Method, MethodKind, Profile};
+use crate::method::contract::{Method, Profile};
 use crate::method::parameters::parameters;
 use crate::method::range::above;
 use crate::random::RandomStream;
@@ -48,9 +48,6 @@ parameters! {
 impl Method for DeSpec {
     fn profile(&self) -> Profile {
         Profile::PER_GOAL
-    }
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::PerGoal(Box::new(self.clone())))
     }
 }
 

@@ -10,7 +10,7 @@
 
 use super::swarm::{Estimator, Flight, Swarm, SwarmSpec, SwarmState};
 use super::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, Provenance, SearchSpace};
-use crate::method::contract::{Method, MethodKind, Profile};
+use crate::method::contract::{Method, Profile};
 use crate::method::parameters::parameters;
 use crate::random::RandomStream;
 
@@ -29,10 +29,6 @@ parameters! {
 impl Method for FiPsoSpec {
     fn profile(&self) -> Profile {
         Profile::PER_GOAL
-    }
-
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::PerGoal(Box::new(self.clone())))
     }
 }
 

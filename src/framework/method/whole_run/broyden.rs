@@ -22,7 +22,7 @@ use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRun
 use super::refine::{Local, refine};
 use super::space::Space;
 use super::steps::Targets;
-use crate::method::contract::{Effects, Method, MethodKind, Profile, SimulatorUse};
+use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
 use crate::method::parameters::parameters;
 use crate::world::WorldError;
 use nalgebra::{DMatrix, DVector};
@@ -57,9 +57,6 @@ parameters! {
 impl Method for BroydenSpec {
     fn profile(&self) -> Profile {
         Profile { few_evaluations: false, ..Profile::whole_run(Effects::Smooth, SimulatorUse::Never) }
-    }
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Parameters of AFFG-PSO. Lengths are genes: rad (or m).
 
-use crate::method::contract::{Method, MethodKind, Profile};
+use crate::method::contract::{Method, Profile};
 use crate::method::parameters::parameters;
 use crate::method::per_goal::swarm::SwarmSpec;
 use crate::method::range::above;
@@ -30,9 +30,5 @@ parameters! {
 impl Method for AffgPsoSpec {
     fn profile(&self) -> Profile {
         Profile::PER_GOAL
-    }
-
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::PerGoal(Box::new(self.clone())))
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters of CMA-ES as users write them. Lengths are shares of a joint's range.
 
-use crate::method::contract::{Method, MethodKind, Profile};
+use crate::method::contract::{Method, Profile};
 use crate::method::parameters::parameters;
 use crate::method::per_goal::BoundsRule;
 use crate::method::range::above;
@@ -32,10 +32,6 @@ parameters! {
 impl Method for CmaEsSpec {
     fn profile(&self) -> Profile {
         Profile::PER_GOAL
-    }
-
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::PerGoal(Box::new(self.clone())))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Parameters of SST. Defaults are the algorithm itself; each quirk of the published runs is an option, on only in the
 //! `paper-*` presets.
 
-use crate::method::contract::{Method, MethodKind, Profile};
+use crate::method::contract::{Method, Profile};
 use crate::method::parameters::parameters;
 use crate::method::per_goal::BoundsRule;
 
@@ -30,9 +30,5 @@ parameters! {
 impl Method for SstSpec {
     fn profile(&self) -> Profile {
         Profile::PER_GOAL
-    }
-
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::PerGoal(Box::new(self.clone())))
     }
 }

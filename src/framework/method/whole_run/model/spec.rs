@@ -1,6 +1,6 @@
 //! Parameters of MODEL-IET.
 
-use crate::method::contract::{Effects, Knowledge, Method, MethodKind, Profile, SimulatorUse};
+use crate::method::contract::{Effects, Knowledge, Method, Profile, SimulatorUse};
 use crate::method::parameters::{Choice, parameters};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -46,8 +46,5 @@ impl Method for ModelSpec {
         let prior = known.simulator.map(|may_use| if may_use { Prior::Simulator } else { Prior::None });
         self.prior = prior.unwrap_or(self.prior);
         self.noise = known.noise.unwrap_or(self.noise);
-    }
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }

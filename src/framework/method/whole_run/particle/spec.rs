@@ -1,6 +1,6 @@
 //! Parameters of PARTICLE-IET.
 
-use crate::method::contract::{Effects, Method, MethodKind, Profile, SimulatorUse};
+use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
 use crate::method::parameters::{Parameters, parameters};
 use crate::method::range::{OutOfRange, Range};
 use crate::world::WorldProperties;
@@ -38,9 +38,5 @@ impl Method for ParticleSpec {
         let cells = world.surface.map_or(1, |surface| surface.cells());
         let comparisons = f64::from(self.poses) * f64::from(self.particles) * cells as f64;
         Range::from(1.0..=MOST_COMPARISONS).check("poses x particles x cells", None, comparisons)
-    }
-
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }

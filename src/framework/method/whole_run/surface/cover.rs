@@ -4,7 +4,7 @@
 //! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
 //! trial stays. The goal pointer is the first goal above what is observed.
 
-use crate::method::contract::{Effects, Method, MethodKind, Profile, SimulatorUse};
+use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
 use crate::method::parameters::parameters;
 use crate::method::whole_run::{GoalOutcome, NextTrial, Trial};
 
@@ -25,9 +25,6 @@ parameters! {
 impl Method for CoverSpec {
     fn profile(&self) -> Profile {
         Profile::whole_run(Effects::Accumulating, SimulatorUse::Never)
-    }
-    fn kind(&self) -> Option<MethodKind> {
-        Some(MethodKind::WholeRun(Box::new(self.clone())))
     }
 }
 
