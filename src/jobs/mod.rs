@@ -1,7 +1,7 @@
 //! The queue runner: workers claim jobs, hold them by a lease, and write under their claim's token.
 //!
-//! One file or folder per job kind; each has a `run` that ends well or says by [`lease::Stop`] why it does not. A new
-//! kind is a file here and an arm in [`run_kind`].
+//! One file or folder per job kind; each has a `run` that ends well or says by `lease::Stop` why it does not. A new
+//! kind is a file here and an arm in `run_kind`.
 //!
 //! # Architecture Invariants
 //! - Execution is at least once, completion exactly once: a worker's writes name its claim, and a claim that no longer

@@ -54,7 +54,7 @@ pub enum Values {
     },
 }
 
-/// A set of parameters; implemented by [`parameters!`].
+/// A set of parameters; implemented by the macro `parameters!`.
 pub trait Parameters {
     /// All of them, in the order of their declaration.
     fn parameters() -> Vec<Parameter>

@@ -72,7 +72,7 @@ function rung(index: number, finished: readonly GoalProgress[], active: Props["a
 function tried(index: number, finished: Props["finished"], active: Props["active"], trials: Props["trials"]): Rung {
   const done = finished.find((goal) => goal.index === index);
   if (done !== undefined) {
-    const { evaluations, residual = null } = done;
+    const { evaluations, residual } = done;
     const reached = done.stop_reason === "tolerance" ? (evaluations === 0 ? "reached on the way" : "reached") : humanize(done.stop_reason);
     return { index, kind: "done", evaluations, best: residual, note: reached };
   }
