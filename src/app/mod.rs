@@ -15,6 +15,7 @@ pub mod demonstrations;
 pub mod experiments;
 pub mod jobs;
 pub mod json_pointer;
+pub mod methods;
 pub mod model;
 pub mod ports;
 pub mod recognitions;

@@ -11,12 +11,13 @@ use tonic_health::pb::health_server::{Health, HealthServer};
 use tonic_health::pb::{HealthCheckRequest, HealthCheckResponse};
 
 /// The server itself and its services.
-const NAMES: [&str; 10] = [
+const NAMES: [&str; 11] = [
     "",
     proto::action_service_server::SERVICE_NAME,
     proto::demonstration_service_server::SERVICE_NAME,
     proto::experiment_service_server::SERVICE_NAME,
     proto::job_service_server::SERVICE_NAME,
+    proto::method_service_server::SERVICE_NAME,
     proto::recognition_service_server::SERVICE_NAME,
     proto::robot_service_server::SERVICE_NAME,
     proto::run_service_server::SERVICE_NAME,

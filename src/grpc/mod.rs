@@ -14,6 +14,7 @@ mod experiments;
 mod files;
 mod health;
 mod jobs;
+mod methods;
 pub mod proto;
 mod recognition;
 mod robots;
@@ -26,6 +27,7 @@ use proto::action_service_server::ActionServiceServer;
 use proto::demonstration_service_server::DemonstrationServiceServer;
 use proto::experiment_service_server::ExperimentServiceServer;
 use proto::job_service_server::JobServiceServer;
+use proto::method_service_server::MethodServiceServer;
 use proto::recognition_service_server::RecognitionServiceServer;
 use proto::robot_service_server::RobotServiceServer;
 use proto::run_service_server::RunServiceServer;
@@ -62,6 +64,7 @@ pub fn routes(app: App, access: Access, settings: &Settings) -> Result<Routes, t
         .add_service(guarded!(RecognitionServiceServer, recognition::Service(app.clone())))
         .add_service(guarded!(RobotServiceServer, robots::Service(app.clone())))
         .add_service(guarded!(WorldServiceServer, worlds::Service(app.clone())))
+        .add_service(guarded!(MethodServiceServer, methods::Service(app.clone())))
         .add_service(guarded!(JobServiceServer, jobs::Service(app.clone())))
         .add_service(guarded!(ExperimentServiceServer, experiments::Service(app.clone())))
         .add_service(guarded!(RunServiceServer, runs::Service(app.clone())))

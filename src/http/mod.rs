@@ -19,6 +19,7 @@ mod experiments;
 mod extract;
 mod health;
 mod jobs;
+mod methods;
 pub mod openapi;
 pub mod problem;
 mod recognitions;
@@ -98,6 +99,7 @@ fn resources() -> OpenApiRouter<Api> {
         .at(routes!(robots::urdf))
         .at(routes!(worlds::list, worlds::create))
         .at(routes!(worlds::get, worlds::delete))
+        .at(routes!(methods::list))
         .at(routes!(jobs::list, jobs::create))
         .at(routes!(jobs::validate))
         .at(routes!(jobs::get))

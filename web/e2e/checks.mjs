@@ -154,7 +154,7 @@ async function demonstrationsToJob({ browser, server }) {
   await page.getByLabel("World").selectOption({ label: "wall of 4 x 4 (painted)" });
   assert.equal(await page.getByLabel("Method", { exact: true }).inputValue(), "particle", "a wall suggests its method");
   await page.getByLabel("Method", { exact: true }).selectOption("sst");
-  assert.equal(await page.getByLabel("Population P").inputValue(), "10", "a wall suggests a small population");
+  assert.equal(await page.getByLabel("Population").inputValue(), "10", "a wall suggests a small population");
   await page.getByText("Estimated evaluations").waitFor();
   await page.getByLabel("Seed").fill("5");
   await page.getByRole("button", { name: "Start job" }).click();

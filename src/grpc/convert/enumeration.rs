@@ -1,7 +1,7 @@
 //! Enumerations of ours and of the messages, variant by variant in both directions: a new one does not compile until it
 //! stands here.
 
-use crate::app::model::{AppError, JobKind};
+use crate::app::model::{AppError, JobKind, ParameterType};
 use crate::framework::constraint::{OnInfeasible, PenaltyForm, Side};
 use crate::framework::demonstration::Severity;
 use crate::framework::experiment::Quantity;
@@ -9,6 +9,7 @@ use crate::framework::generalization::Weighting;
 use crate::framework::job::State;
 use crate::framework::method::per_goal::{BoundsRule, Leader, Provenance, StopReason, VelocityClamp};
 use crate::framework::method::whole_run::Prior;
+use crate::framework::method::{Effects, Scope, SimulatorUse};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::JointKind;
 use crate::framework::trajectory::LimitKind;
@@ -103,5 +104,9 @@ enumerations! {
     Prior = Prior, "a prior" { None, Simulator }
     Side = Side, "a side" { Inside, Outside }
     PenaltyForm = PenaltyForm, "a form of penalty" { Additive, Multiplicative }
+    Scope = MethodScope, "a scope" { PerGoal, WholeRun, Chosen }
+    Effects = MethodEffects, "a kind of effects" { Any, Smooth, Accumulating }
+    SimulatorUse = MethodSimulatorUse, "a use of a simulator" { Never, Optional, Required }
+    ParameterType = MethodParameterType, "a type of parameter" { Integer, Number, Flag, Choice }
     OnInfeasible = OnInfeasible, "a treatment of infeasible goals" { Stop, Append }
 }

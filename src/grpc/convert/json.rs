@@ -1,5 +1,6 @@
 //! JSON objects and `google.protobuf.Struct`.
 
+use crate::app::json_pointer;
 use crate::app::model::{AppError, FieldError};
 use prost_types::value::Kind;
 use prost_types::{ListValue, Struct};
@@ -19,8 +20,8 @@ pub fn read(pointer: &str, object: Option<Struct>) -> Result<Value, AppError> {
 fn members(pointer: &str, object: Struct) -> Result<Value, AppError> {
     let Struct { fields } = object;
     let member = |(key, member): (String, prost_types::Value)| {
-        let pointer = format!("{pointer}/{}", key.replace('~', "~0").replace('/', "~1"));
-        Ok((key, value(&pointer, member)?))
+        let below = json_pointer::join(pointer, &key);
+        Ok((key, value(&below, member)?))
     };
     fields.into_iter().map(member).collect::<Result<Map<_, _>, _>>().map(Value::Object)
 }
@@ -35,7 +36,7 @@ fn value(pointer: &str, message: prost_types::Value) -> Result<Value, AppError> 
         Some(Kind::StringValue(text)) => Ok(Value::String(text)),
         Some(Kind::StructValue(object)) => members(pointer, object),
         Some(Kind::ListValue(ListValue { values })) => {
-            let item = |(index, item)| value(&format!("{pointer}/{index}"), item);
+            let item = |(index, item)| value(&json_pointer::join(pointer, index), item);
             values.into_iter().enumerate().map(item).collect::<Result<Vec<_>, _>>().map(Value::Array)
         }
         Some(Kind::NumberValue(number)) => {
@@ -62,7 +63,8 @@ pub fn write(value: Value) -> Option<Struct> {
     }
 }
 
-fn message(value: Value) -> prost_types::Value {
+/// The same value.
+pub fn message(value: Value) -> prost_types::Value {
     let kind = match value {
         Value::Null => Kind::NullValue(0),
         Value::Bool(value) => Kind::BoolValue(value),

@@ -7,6 +7,7 @@
 //! - An error names the JSON pointer that the same field has over HTTP.
 
 mod action;
+mod catalogue;
 mod constraint;
 pub mod demonstration;
 mod enumeration;

@@ -2,6 +2,7 @@
 
 use super::schemas::Schemas;
 use crate::app::model::limits;
+use crate::framework::method::{Parameter, Range, Values, catalogue};
 use serde_json::{Map, Value, json};
 use std::ops::RangeInclusive;
 
@@ -48,8 +49,35 @@ fn parameters() -> Vec<Row> {
     ]
 }
 
+/// Adds the ranges of a method's parameters to their component, and those of a group's to the group's.
+fn add_ranges(schemas: &mut Schemas, component: &str, parameters: &[Parameter]) {
+    for Parameter { name, values, .. } in parameters {
+        let Some(schema) = schemas.get_mut(component) else { continue };
+        let schema = &mut schema["properties"][name];
+        match values {
+            Values::Integer { range } | Values::Number { range } => extend(schema, &range_keywords(range)),
+            Values::Group { parameters } => {
+                let group = schema["$ref"].as_str().and_then(|reference| reference.rsplit('/').next());
+                if let Some(group) = group.map(str::to_owned) {
+                    add_ranges(schemas, &group, parameters);
+                }
+            }
+            Values::Flag | Values::Choice { .. } => {}
+        }
+    }
+}
+
+fn range_keywords(range: &Range) -> Value {
+    let limits =
+        [("minimum", range.minimum), ("exclusiveMinimum", range.exclusive_minimum), ("maximum", range.maximum)];
+    limits.into_iter().filter_map(|(keyword, limit)| Some((keyword.to_owned(), json!(limit?)))).collect()
+}
+
 /// Adds the bounds to the components, before their properties become parts of others.
 pub fn add_to_schemas(schemas: &mut Schemas) {
+    for method in catalogue() {
+        add_ranges(schemas, method.schema, &method.parameters);
+    }
     for (component, property, keywords) in properties() {
         if let Some(schema) = schemas.get_mut(component) {
             extend(&mut schema["properties"][property], &keywords);

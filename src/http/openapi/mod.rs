@@ -36,6 +36,7 @@ pub const RENEW: &str = "cargo run --quiet -- openapi > web/openapi.json";
         (name = "recognitions", description = "Which action an observation looks like."),
         (name = "robots", description = "A URDF and the part of it that moves; versions are immutable."),
         (name = "worlds", description = "Where effects happen."),
+        (name = "methods", description = "What a job can search with."),
         (name = "jobs", description = "Durable work with live progress."),
         (name = "experiments", description = "Many runs of many settings, compared."),
         (name = "runs", description = "Finished repetitions of execution jobs."),

@@ -43,7 +43,7 @@ fn oneof(field: &FieldDescriptor) -> Option<OneofDescriptor> {
 pub fn shape(message: &MessageDescriptor) -> Shape {
     match message.full_name() {
         "google.protobuf.Timestamp" => return Shape::Time,
-        "google.protobuf.Struct" => return Shape::Any,
+        "google.protobuf.Struct" | "google.protobuf.Value" => return Shape::Any,
         _ => {}
     }
     let name = message.name();
@@ -130,6 +130,7 @@ pub fn json_of(message: &DynamicMessage) -> Value {
     match descriptor.full_name() {
         "google.protobuf.Timestamp" => return json!(time(message).to_string()),
         "google.protobuf.Struct" => return fields_of_struct(message),
+        "google.protobuf.Value" => return value_of_struct(message),
         _ => {}
     }
     let name = descriptor.name();

@@ -33,6 +33,11 @@ export function useJob(id: string) {
   });
 }
 
+/** The catalogue of methods, which only another version of the server changes. */
+export function useMethods() {
+  return useQuery({ queryKey: ["methods"], queryFn: () => body(api.GET("/api/v1/methods")), staleTime: Infinity });
+}
+
 export function useRuns(job: string, enabled: boolean) {
   return useInfiniteQuery({
     queryKey: ["runs", { job }],

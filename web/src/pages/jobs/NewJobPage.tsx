@@ -4,12 +4,12 @@ import { useState, type SyntheticEvent } from "react";
 import { useNavigate, useSearchParams } from "react-router";
 import { bounds } from "../../api/bounds";
 import { useCreateJob } from "../../api/mutations";
-import { useActions, useRobots, useWorlds } from "../../api/queries";
+import { useActions, useMethods, useRobots, useWorlds } from "../../api/queries";
 import { Card, PageHead } from "../../ui/basics";
 import { Problem } from "../../ui/feedback";
 import { NumberField, SelectField, within } from "../../ui/fields";
 import { DryRun } from "./DryRun";
-import { EMPTY_FORM, requestOf, suggested, type JobForm } from "./jobForm";
+import { EMPTY_FORM, requestOf, suggested, type JobForm, type TextKey } from "./jobForm";
 import { MethodCard, RealityCard } from "./MethodCard";
 
 const limits = bounds.CreateJobExecution;
@@ -20,11 +20,12 @@ export function NewJobPage() {
   const navigate = useNavigate();
   const create = useCreateJob();
   const change = (part: Partial<JobForm>) => setForm((before) => ({ ...before, ...part }));
-  const text = (key: keyof JobForm) => ({ value: form[key], onChange: (value: string) => change({ [key]: value }) });
+  const text = (key: TextKey) => ({ value: form[key], onChange: (value: string) => change({ [key]: value }) });
 
   const worlds = useWorlds().data?.pages.flatMap((page) => page.items) ?? [];
   const world = worlds.find((each) => each.id === form.world);
-  const request = requestOf(form);
+  const methods = useMethods().data?.items ?? [];
+  const request = requestOf(form, methods.find(({ name }) => name === form.method));
   const submit = (event: SyntheticEvent) => {
     event.preventDefault();
     if (request !== null) create.mutate(request, { onSuccess: (job) => void navigate(`/jobs/${job.id}`) });
@@ -39,7 +40,7 @@ export function NewJobPage() {
       <form className="columns wide-first" onSubmit={submit}>
         <div className="stack">
           <What form={form} change={change} />
-          <MethodCard form={form} world={world} change={change} />
+          <MethodCard form={form} world={world} methods={methods} change={change} />
           <RealityCard form={form} change={change} />
           <Card title="Stopping criteria">
             <div className="fields">

@@ -1,20 +1,16 @@
 // The new-job form as data: its defaults per world, and the request built from it.
 
-import type { CreateJob, ExecutionSpec, MethodChoice, Metric, World } from "../../api/types";
-import type { MethodName } from "./methods";
+import type { CreateJob, ExecutionSpec, Method, MethodChoice, Metric, World } from "../../api/types";
+import { requestOf as methodRequest } from "./methods";
 
 export interface JobForm {
   action: string;
   robot: string;
   world: string;
-  method: MethodName;
-  prior: "none" | "simulator";
-  noise: string;
-  maxStep: string;
+  method: string;
+  /** What was filled in of the methods' parameters, by their place: `sst.population`. */
+  parameters: Readonly<Record<string, string>>;
   earlier: "found" | "none";
-  population: string;
-  stagnation: string;
-  mutation: string;
   metric: Metric;
   tolerance: string;
   target: string;
@@ -31,18 +27,16 @@ export interface JobForm {
   pace: string;
 }
 
+/** The fields that hold a text each. */
+export type TextKey = Exclude<keyof JobForm, "parameters">;
+
 export const EMPTY_FORM: JobForm = {
   action: "",
   robot: "",
   world: "",
   method: "model",
-  prior: "none",
-  noise: "0",
-  maxStep: "",
+  parameters: {},
   earlier: "found",
-  population: "50",
-  stagnation: "3",
-  mutation: "0.6",
   metric: "multivariate",
   tolerance: "",
   target: "",
@@ -62,22 +56,22 @@ export const EMPTY_FORM: JobForm = {
 /** Defaults for a world: the method that needs the fewest evaluations there. For SST on a wall the discrepancy changes in
  * steps, which a small population with long stagnation handles best, and 0 is perfect. */
 export function suggested(world: World): Partial<JobForm> {
-  if (world.spec.kind === "coverage") return { method: "particle", population: "10", stagnation: "10", target: "0" };
-  return { method: "model", population: "50", stagnation: "3", target: "" };
+  if (world.spec.kind !== "coverage") return { method: "model", parameters: {}, target: "" };
+  return { method: "particle", parameters: { "sst.population": "10", "sst.stagnation": "10" }, target: "0" };
 }
 
 const optional = (text: string) => (text.trim() === "" ? null : Number(text));
 
 /** The request, or null until action, robot and world are chosen. */
-export function requestOf(form: JobForm): CreateJob | null {
-  if (form.action === "" || form.robot === "" || form.world === "") return null;
+export function requestOf(form: JobForm, method: Method | undefined): CreateJob | null {
+  if (method === undefined || form.action === "" || form.robot === "" || form.world === "") return null;
   return {
     kind: "execution",
     action: form.action,
     robot: form.robot,
     world: form.world,
     execution: {
-      method: methodOf(form),
+      method: methodRequest(method, form.parameters) as MethodChoice,
       metric: form.metric,
       tolerance: optional(form.tolerance),
       target_discrepancy: optional(form.target),
@@ -87,29 +81,8 @@ export function requestOf(form: JobForm): CreateJob | null {
     seed: optional(form.seed),
     repetitions: Number(form.repetitions),
     max_evaluations_per_s: optional(form.pace),
-    ...(form.method === "model" && form.earlier === "none" ? { earlier_runs: [] } : {}),
+    ...(method.learns_from_earlier_runs && form.earlier === "none" ? { earlier_runs: [] } : {}),
   };
-}
-
-function methodOf(form: JobForm): MethodChoice {
-  const step = { max_step_deg: optional(form.maxStep) };
-  switch (form.method) {
-    case "model":
-      return { name: "model", prior: form.prior, noise: Number(form.noise), ...step };
-    case "particle":
-      return { name: "particle", ...step };
-    case "search":
-      return { name: "search", ...step };
-    case "sst":
-      return {
-        name: "sst",
-        population: Number(form.population),
-        stagnation: Number(form.stagnation),
-        mutation_probability: Number(form.mutation),
-      };
-    default:
-      return form.method;
-  }
 }
 
 /** The simulated real robot's deviation from its description; the form has percent and millimetres, the request SI. */

@@ -1,79 +1,58 @@
-// The methods that a job can use, described for people.
+// The server's catalogue of methods, as the form needs it.
 
-import type { World } from "../../api/types";
+import type { Method, Parameter, World } from "../../api/types";
 
-export type MethodName = "auto" | "model" | "particle" | "search" | "broyden" | "cma_es" | "sst";
-
-export interface Method {
-  name: MethodName;
-  label: string;
-  /** Purpose, and when to use it. */
-  explanation: string;
-  /** The only kind of world it works in; any if absent. */
-  world?: World["spec"]["kind"];
-  /** Whether it needs few evaluations, because it decides every trial of the whole run: made for a real robot. */
-  few: boolean;
+/** The methods that work in a world; all while none is chosen. */
+export function methodsFor(methods: readonly Method[], world: World | undefined): readonly Method[] {
+  return methods.filter(({ needs }) => world === undefined || meets(world.spec, needs));
 }
 
-export const METHODS: readonly Method[] = [
-  {
-    name: "auto",
-    label: "Automatic",
-    explanation: "Chosen for the features, the world and the constraints when the job is submitted; the choice and its reason are recorded.",
-    few: false,
-  },
-  {
-    name: "model",
-    label: "MODEL-IET",
-    explanation:
-      "A dozen evaluations. Learns from each trial how the joints affect the features, then tries the pose expected closest to a goal. A goal out of reach is reported with its best residual.",
-    world: "tool_position",
-    few: true,
-  },
-  {
-    name: "particle",
-    label: "PARTICLE-IET",
-    explanation:
-      "About one evaluation per cell. Uses the described robot as an uncertain simulator: many slightly different robots vote for the next pose, and each trial reweights them.",
-    world: "coverage",
-    few: true,
-  },
-  {
-    name: "search",
-    label: "SEARCH-IET",
-    explanation:
-      "Needs no description of the robot: searches where no trial has been close yet, preferably near trials that gained something. Takes about four times as many evaluations as PARTICLE-IET.",
-    world: "coverage",
-    few: true,
-  },
-  {
-    name: "broyden",
-    label: "Broyden",
-    explanation: "Gauss-Newton with an estimated Jacobian, a classical baseline: few evaluations if it converges, with some bad runs.",
-    world: "tool_position",
-    few: false,
-  },
-  {
-    name: "cma_es",
-    label: "CMA-ES",
-    explanation: "An evolution strategy and standard baseline: hundreds of evaluations, starting from the previous goal's result.",
-    few: false,
-  },
-  {
-    name: "sst",
-    label: "SST",
-    explanation: "The paper's steady-state tournament: thousands of evaluations, for simulation.",
-    few: false,
-  },
-];
-
-export function methodNamed(name: MethodName): Method | undefined {
-  return METHODS.find((method) => method.name === name);
+function meets(world: World["spec"], { effects, reset }: Method["needs"]): boolean {
+  const surface = world.kind === "coverage";
+  if (effects === "smooth" && surface) return false;
+  if (effects === "accumulating" && !surface) return false;
+  return !(reset && surface && world.resets === false);
 }
 
-/** The methods that work in a world; all of them until one is chosen. */
-export function methodsFor(world: World | undefined): readonly Method[] {
-  if (world === undefined) return METHODS;
-  const covers = world.spec.kind === "coverage";
-  return METHODS.filter((method) => method.world === undefined || (method.world === "coverage") === covers);
+/** The name in words, with the unit: `max_step_deg` is "Max step (degrees)", `swarm.inertia` "Inertia". */
+export function labelOf({ name, unit }: Parameter): string {
+  const own = name.slice(name.lastIndexOf(".") + 1);
+  const words = own.replace(/_(deg|m|s)$/, "").replaceAll("_", " ");
+  const label = words.charAt(0).toUpperCase() + words.slice(1);
+  return unit == null ? label : `${label} (${unit})`;
+}
+
+/** A default as an input shows it; nothing for `null`. */
+export function textOf(value: unknown): string {
+  return typeof value === "string" || typeof value === "number" || typeof value === "boolean" ? String(value) : "";
+}
+
+/** Where the text of a method's parameter is kept. */
+export const keyOf = (method: Method, parameter: Parameter) => `${method.name}.${parameter.name}`;
+
+/** The method with the parameters that were filled in; the others keep the server's defaults. */
+export function requestOf(method: Method, texts: Readonly<Record<string, string>>): Record<string, unknown> {
+  const request: Record<string, unknown> = { name: method.name };
+  for (const parameter of method.parameters) {
+    const text = texts[keyOf(method, parameter)];
+    if (text !== undefined) put(request, parameter.name.split("."), valueOf(parameter, text));
+  }
+  return request;
+}
+
+/** Puts a value at its path into nested objects, which are made where they lack. */
+function put(object: Record<string, unknown>, [key = "", ...rest]: readonly string[], value: unknown): void {
+  if (rest.length === 0) {
+    object[key] = value;
+    return;
+  }
+  const inner = (object[key] ?? {}) as Record<string, unknown>;
+  object[key] = inner;
+  put(inner, rest, value);
+}
+
+function valueOf({ type }: Parameter, text: string): unknown {
+  if (text.trim() === "") return null;
+  if (type === "flag") return text === "true";
+  return type === "choice" ? text : Number(text);
 }

@@ -1,0 +1,13 @@
+//! Methods: what a job can search with.
+
+use crate::app::App;
+use crate::app::model::{MethodList, MethodView};
+use crate::framework::method::catalogue;
+
+impl App {
+    /// Lists all methods with their parameters.
+    #[must_use]
+    pub fn list_methods(&self) -> MethodList {
+        MethodList { items: catalogue().into_iter().map(MethodView::from).collect() }
+    }
+}
