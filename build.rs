@@ -15,7 +15,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     watch_dashboard()?;
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=proto");
-    println!("cargo:rerun-if-changed=migrations");
 
     let mut files: Vec<PathBuf> =
         fs::read_dir("proto/cgda/v1")?.map(|entry| Ok(entry?.path())).collect::<Result<_, std::io::Error>>()?;

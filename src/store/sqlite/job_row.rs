@@ -7,7 +7,8 @@ use crate::app::ports::StoreError;
 use crate::app::ports::rules::Standing;
 use crate::framework::job::State;
 use crate::store::documents::{self, Failure, Progress, Request};
-use sqlx::sqlite::SqliteConnection;
+use sqlx::sqlite::{SqliteConnection, SqliteRow};
+use sqlx::{FromRow, Row as _};
 
 macro_rules! select_jobs {
     ($tail:literal) => {
@@ -30,7 +31,7 @@ statements! {
 }
 
 /// A row of `jobs`.
-#[derive(Debug, sqlx::FromRow)]
+#[derive(Debug)]
 pub(super) struct JobRow {
     pub(super) id: String,
     kind: String,
@@ -50,6 +51,31 @@ pub(super) struct JobRow {
     runs: String,
     action: Option<String>,
     experiment: Option<String>,
+}
+
+impl FromRow<'_, SqliteRow> for JobRow {
+    fn from_row(row: &SqliteRow) -> sqlx::Result<Self> {
+        Ok(Self {
+            id: row.try_get("id")?,
+            kind: row.try_get("kind")?,
+            name: row.try_get("name")?,
+            state: row.try_get("state")?,
+            state_reason: row.try_get("state_reason")?,
+            state_since: row.try_get("state_since")?,
+            attempt: row.try_get("attempt")?,
+            crashes: row.try_get("crashes")?,
+            last_seq: row.try_get("last_seq")?,
+            progress: row.try_get("progress")?,
+            request: row.try_get("request")?,
+            failure: row.try_get("failure")?,
+            created_at: row.try_get("created_at")?,
+            started_at: row.try_get("started_at")?,
+            finished_at: row.try_get("finished_at")?,
+            runs: row.try_get("runs")?,
+            action: row.try_get("action")?,
+            experiment: row.try_get("experiment")?,
+        })
+    }
 }
 
 impl JobRow {

@@ -7,6 +7,7 @@ mod events;
 mod experiments;
 mod job_row;
 mod jobs;
+mod migrations;
 mod open;
 mod queue;
 mod robots;

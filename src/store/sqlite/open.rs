@@ -1,13 +1,11 @@
 //! Opening the database: gates first, then migrations.
 
+use super::migrations::MIGRATIONS;
 use crate::app::ports::StoreError;
 use sqlx::ConnectOptions as _;
-use sqlx::migrate::Migrator;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous};
 use std::path::Path;
 use std::time::Duration;
-
-static MIGRATIONS: Migrator = sqlx::migrate!("migrations/sqlite");
 
 /// The first version without the WAL corruption that earlier ones can suffer.
 const OLDEST_SQLITE: [u32; 3] = [3, 51, 3];
