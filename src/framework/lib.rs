@@ -9,6 +9,7 @@
 #![doc = include_str!("README.md")]
 #![warn(missing_docs)]
 
+pub mod cells;
 pub mod constraint;
 pub mod demonstration;
 pub mod execution;
@@ -26,5 +27,6 @@ pub mod robot;
 pub mod trajectory;
 pub mod world;
 
+pub use cells::CellSet;
 pub use feature::Feature;
 pub use name::{MAX_DISPLAY_NAME_CHARS, is_display_name, is_hidden};

@@ -191,10 +191,8 @@ fn wall_figure(experiment: &Experiment, cells: &[PaperCell]) -> Result<String, P
     for goal in &run.goals {
         world.commit(&goal.joints, &mut observation);
         achieved.push(observation[0]);
-        let bits = world.cells().unwrap_or(&[]);
-        done.push(
-            (0..rows * columns).map(|cell| bits.get(cell / 64).is_some_and(|w| w >> (cell % 64) & 1 == 1)).collect(),
-        );
+        let painted = |cell| world.cells().is_some_and(|cells| cells.contains(cell));
+        done.push((0..rows * columns).map(painted).collect());
     }
     let reference = problem.goals.rows().map(|row| row[0]).collect();
     let title = format!("Figure 7. Paint, {}: the wall goal by goal (run of median discrepancy)", cell.setting);

@@ -5,6 +5,7 @@ use super::error::ProblemError;
 use super::goal_search::GoalSearch;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
+use crate::CellSet;
 use crate::constraint::{Constraints, Judge, JudgeState, Rules};
 use crate::generalization::Goals;
 use crate::method::MethodKind;
@@ -97,11 +98,10 @@ impl Setup {
         })
     }
 
-    /// The cells in an observation of all the world's features, 64 a word; none where cells are not seen.
-    pub(super) fn cells(&self, values: &[f64]) -> Option<Vec<u64>> {
+    /// The cells in an observation of all the world's features; `None` if cells are not seen.
+    pub(super) fn cells(&self, values: &[f64]) -> Option<CellSet> {
         self.world.properties().surface.filter(|surface| surface.cells_seen)?;
-        let bits = |word: &[f64]| word.iter().rev().fold(0, |bits, cell| bits << 1 | u64::from(*cell > 0.5));
-        Some(values[1..].chunks(64).map(bits).collect())
+        Some(CellSet::from_flags(values[1..].iter().map(|cell| *cell > 0.5)))
     }
 
     /// A fresh search by `method` for the goal after `results`.

@@ -1,8 +1,8 @@
 //! The coverage world (the paper's paint): the cells of a grid that the tool has come close to.
 
 use super::{CoverageSpec, Surface, SurfaceView, World, WorldError};
-use crate::Feature;
 use crate::robot::{Chain, tool_position};
+use crate::{CellSet, Feature};
 use nalgebra::Vector3;
 
 /// Maximum number of cells of a surface.
@@ -12,14 +12,15 @@ const MAX_SEEN_CELLS: u64 = 1 << 12;
 /// Largest coordinate, step and radius, metres.
 const MAX_LENGTH_M: f64 = 1e4;
 
-/// Feature `painted`, %, followed by the cells if they are observed. Cells are bits in row-major order.
+/// Feature `painted`, %, followed by the cells if they are observed.
 #[derive(Debug, Clone)]
 pub(super) struct Coverage {
     chain: Chain,
     features: Vec<Feature>,
     centres_m: Vec<Vector3<f64>>,
     radius_squared: f64,
-    painted: Vec<u64>,
+    painted: CellSet,
+    /// Number of painted cells.
     count: usize,
 }
 
@@ -95,7 +96,7 @@ impl Coverage {
         Ok(Self {
             chain: chain.clone(),
             features: features(spec),
-            painted: vec![0; centres_m.len().div_ceil(64)],
+            painted: CellSet::empty(centres_m.len()),
             centres_m,
             radius_squared: spec.radius_m * spec.radius_m,
             count: 0,
@@ -113,7 +114,7 @@ impl World for Coverage {
     }
 
     fn reset(&mut self) {
-        self.painted.fill(0);
+        self.painted.clear();
         self.count = 0;
     }
 
@@ -122,7 +123,7 @@ impl World for Coverage {
         let (share, seen) = observation.split_at_mut(1);
         let mut count = self.count;
         for (cell, centre) in self.centres_m.iter().enumerate() {
-            let was_painted = self.painted[cell / 64] >> (cell % 64) & 1 == 1;
+            let was_painted = self.painted.contains(cell);
             let is_near = (tool - centre).norm_squared() < self.radius_squared;
             count += usize::from(is_near && !was_painted);
             if let Some(value) = seen.get_mut(cell) {
@@ -135,19 +136,17 @@ impl World for Coverage {
     fn commit(&mut self, joints: &[f64], observation: &mut [f64]) {
         let tool = tool_position(&self.chain, joints);
         for (cell, centre) in self.centres_m.iter().enumerate() {
-            let bit = 1 << (cell % 64);
-            if (tool - centre).norm_squared() < self.radius_squared && self.painted[cell / 64] & bit == 0 {
-                self.painted[cell / 64] |= bit;
-                self.count += 1;
+            if (tool - centre).norm_squared() < self.radius_squared {
+                self.count += usize::from(self.painted.insert(cell));
             }
         }
         observation[0] = self.percent(self.count);
         for (cell, value) in observation[1..].iter_mut().enumerate() {
-            *value = f64::from(u8::from(self.painted[cell / 64] >> (cell % 64) & 1 == 1));
+            *value = f64::from(u8::from(self.painted.contains(cell)));
         }
     }
 
-    fn cells(&self) -> Option<&[u64]> {
+    fn cells(&self) -> Option<&CellSet> {
         Some(&self.painted)
     }
 }

@@ -19,8 +19,8 @@ pub use properties::{Surface, WorldProperties};
 pub use real::{RealitySpec, build_real};
 pub use spec::{CoverageSpec, SurfaceView, ToolDistanceSpec, ToolPositionSpec, WorldSpec};
 
-use crate::Feature;
 use crate::robot::Chain;
+use crate::{CellSet, Feature};
 
 /// A simulated world that remembers the poses executed since its last reset (the prefix U_1..U_j-1).
 pub trait World: Send {
@@ -37,8 +37,8 @@ pub trait World: Send {
     /// As [`World::observe`], and the pose becomes part of the prefix.
     fn commit(&mut self, joints: &[f64], observation: &mut [f64]);
 
-    /// Which cells the prefix has changed, 64 a word, row-major, lowest bit first; none where a world has no cells.
-    fn cells(&self) -> Option<&[u64]> {
+    /// The cells that the prefix has changed; `None` if the world has no cells.
+    fn cells(&self) -> Option<&CellSet> {
         None
     }
 }

@@ -5,10 +5,10 @@
 //! resumes and threads do not change a bit. A lost observation is NaN in every feature.
 
 use super::{World, WorldError, WorldSpec, build};
-use crate::Feature;
 use crate::random::RandomStream;
 use crate::robot::Chain;
 use crate::trajectory::{JointLimits, late, limits};
+use crate::{CellSet, Feature};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -168,7 +168,7 @@ impl World for Real {
         self.sense(random, observation);
     }
 
-    fn cells(&self) -> Option<&[u64]> {
+    fn cells(&self) -> Option<&CellSet> {
         self.inner.cells()
     }
 }

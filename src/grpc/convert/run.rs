@@ -117,7 +117,7 @@ impl From<Trial> for proto::Trial {
             joints,
             observed: observation.is_some(),
             observation: observation.unwrap_or_default(),
-            cells: cells.unwrap_or_default(),
+            cells: cells.unwrap_or_default().into(),
             goal: u32::try_from(goal).unwrap_or(u32::MAX),
         }
     }
@@ -203,7 +203,8 @@ mod tests {
 
     #[test]
     fn a_lost_observation_is_not_an_empty_one() {
-        let seen = Trial { joints: vec![0.1], observation: Some(vec![5.0]), cells: Some(vec![u64::MAX]), goal: 2 };
+        let seen =
+            Trial { joints: vec![0.1], observation: Some(vec![5.0]), cells: Some(vec![u64::MAX].into()), goal: 2 };
         let message = proto::Trial::from(seen.clone());
         assert!(message.observed);
         assert_eq!((message.observation.as_slice(), message.cells.as_slice()), (&[5.0][..], &[u64::MAX][..]));

@@ -2,6 +2,7 @@
 
 use super::space::Space;
 use super::steps::Targets;
+use crate::CellSet;
 use crate::robot::Chain;
 use crate::world::{WorldError, WorldSpec};
 use serde::{Deserialize, Serialize};
@@ -28,7 +29,8 @@ pub struct Trial {
     pub observation: Option<Vec<f64>>,
     /// The cells seen affected after it, 64 a word, row-major, lowest bit first; none where cells are not seen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cells: Option<Vec<u64>>,
+    #[schema(value_type = Option<Vec<u64>>)]
+    pub cells: Option<CellSet>,
     /// The goal the pose was tried for.
     pub goal: usize,
 }

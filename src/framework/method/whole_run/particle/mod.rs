@@ -15,8 +15,9 @@ pub use spec::ParticleSpec;
 
 use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::Space;
-use super::surface::cover::{CoverSpec, Ledger, TrialEffect, fresh_count};
+use super::surface::cover::{CoverSpec, Ledger, TrialEffect};
 use super::surface::sobol;
+use crate::CellSet;
 use crate::random::RandomStream;
 use crate::world::WorldError;
 use uncertain_robot::UncertainRobot;
@@ -44,15 +45,15 @@ pub trait Simulator: Send {
     /// Number of cells.
     fn cells(&self) -> usize;
 
-    /// For each pose the cells it covers, 64 a word, if the parameters were `parameters`.
-    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<Vec<u64>>;
+    /// The cells that each pose covers if the parameters are `parameters`.
+    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<CellSet>;
 }
 
 struct Particle {
     parameters: Vec<f64>,
     log_weight: f64,
-    covers: Vec<Vec<u64>>,
-    painted: Vec<u64>,
+    covers: Vec<CellSet>,
+    painted: CellSet,
 }
 
 /// A run of PARTICLE-IET.
@@ -86,12 +87,12 @@ impl ParticleIet {
         let mut random = RandomStream::of_run(seed, 0);
         let poses = sobol::poses(&space, spec.poses as usize, &mut random);
         let spreads = simulator.spreads();
-        let words = simulator.cells().div_ceil(64);
+        let unpainted = CellSet::empty(simulator.cells());
         let particles = (0..particles)
             .map(|_| {
                 let parameters: Vec<f64> = spreads.iter().map(|s| s * random.normal()).collect();
                 let covers = simulator.covers(&parameters, &poses);
-                Particle { parameters, log_weight: 0.0, covers, painted: vec![0; words] }
+                Particle { parameters, log_weight: 0.0, covers, painted: unpainted.clone() }
             })
             .collect();
         let mut run = Self {
@@ -125,7 +126,7 @@ impl ParticleIet {
         unused
             .map(|z| {
                 let agree =
-                    self.particles.iter().zip(&weights).filter(|(p, _)| fresh_count(&p.covers[z], &p.painted) == 1);
+                    self.particles.iter().zip(&weights).filter(|(p, _)| p.covers[z].count_beyond([&p.painted]) == 1);
                 (agree.map(|(_, w)| w).sum(), z)
             })
             .collect()
@@ -178,12 +179,11 @@ impl ParticleIet {
             .collect();
         self.renew_poses(random);
         let tried: Vec<Vec<f64>> = self.ledger.log.iter().map(|t| t.joints.clone()).collect();
-        let words = self.simulator.cells().div_ceil(64);
         for (particle, parameters) in self.particles.iter_mut().zip(drawn) {
             let replay = self.simulator.covers(&parameters, &tried);
             particle.covers = self.simulator.covers(&parameters, &self.poses);
             particle.parameters = parameters;
-            particle.painted = vec![0; words];
+            particle.painted.clear();
             particle.log_weight = 0.0;
             for (cover, verdict) in replay.iter().zip(&self.verdicts) {
                 particle.learn(cover, verdict);
@@ -267,13 +267,12 @@ impl WholeRun for ParticleIet {
 
 impl Particle {
     /// Judges what it expected of a trial by the cells that were seen gained, or else by their number.
-    fn learn(&mut self, cover: &[u64], verdict: &TrialEffect) {
-        let expected = fresh_count(cover, &self.painted);
+    fn learn(&mut self, cover: &CellSet, verdict: &TrialEffect) {
+        let expected = cover.count_beyond([&self.painted]);
         let wrong = match (&verdict.fresh, verdict.gain) {
             (Some(seen), _) => {
-                let unseen = cover.iter().zip(&self.painted).zip(seen).map(|((c, p), s)| c & !p & !s);
-                let missed = unseen.map(u64::count_ones).sum::<u32>();
-                let unexpected = fresh_count(seen, cover);
+                let missed = cover.count_beyond([&self.painted, seen]);
+                let unexpected = seen.count_beyond([cover]);
                 f64::from(missed + unexpected)
             }
             (None, Some(gain)) => (f64::from(expected) - gain).abs(),
@@ -281,8 +280,7 @@ impl Particle {
         };
         self.log_weight -= SHARPNESS * wrong;
         if verdict.accepted {
-            let kept = verdict.fresh.as_deref().unwrap_or(cover);
-            self.painted.iter_mut().zip(kept).for_each(|(p, c)| *p |= c);
+            self.painted.extend(verdict.fresh.as_ref().unwrap_or(cover));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The problem's robot with uncertain link lengths and base, in its coverage world.
 
 use super::{ParticleSpec, Simulator};
+use crate::CellSet;
 use crate::robot::Chain;
 use crate::world::{self, WorldSpec};
 
@@ -36,18 +37,18 @@ impl Simulator for UncertainRobot {
         self.cells
     }
 
-    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<Vec<u64>> {
+    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<CellSet> {
         let links = self.chain.link_count();
         let scales: Vec<f64> = parameters[..links].iter().map(|p| 1.0 + p).collect();
         let shift = [parameters[links], parameters[links + 1], parameters[links + 2]];
         let Ok(mut world) = world::build(&self.world, &self.chain.distorted(&scales, shift)) else {
-            return vec![vec![0; self.cells.div_ceil(64)]; poses.len()];
+            return vec![CellSet::empty(self.cells); poses.len()];
         };
         let mut seen = vec![0.0; world.features().len()];
         let mut cover = |pose: &Vec<f64>| {
             world.reset();
             world.commit(pose, &mut seen);
-            world.cells().unwrap_or_default().to_vec()
+            world.cells().cloned().unwrap_or_default()
         };
         poses.iter().map(&mut cover).collect()
     }

@@ -4,6 +4,7 @@
 //! `v exp(-d^2 / 2 l^2)` with d in degrees and v the grid's own scatter. A pose's chance of gaining something new is
 //! the density of its predicted place at the centres of unpainted cells.
 
+use crate::CellSet;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -41,34 +42,30 @@ impl Grid {
     }
 }
 
-fn has(cells: &[u64], cell: usize) -> bool {
-    cells.get(cell / 64).is_some_and(|word| word >> (cell % 64) & 1 == 1)
-}
-
 /// Poses that were seen to gain cells.
 #[derive(Debug, Clone)]
 pub(in crate::method::whole_run) struct CellPredictor {
     grid: Grid,
-    painted: Vec<u64>,
+    painted: CellSet,
     /// Joints, and the mean row and column of the cells gained.
     hits: Vec<(Vec<f64>, [f64; 2])>,
 }
 
 impl CellPredictor {
     pub fn new(grid: Grid) -> Self {
-        Self { grid, painted: vec![0; grid.cells().div_ceil(64)], hits: Vec::new() }
+        Self { grid, painted: CellSet::empty(grid.cells()), hits: Vec::new() }
     }
 
     /// Records the cells that a trial gained, and whether the trial was accepted.
-    pub fn tell(&mut self, joints: &[f64], fresh: &[u64], accepted: bool) {
+    pub fn tell(&mut self, joints: &[f64], fresh: &CellSet, accepted: bool) {
         let places: Vec<[f64; 2]> =
-            (0..self.grid.cells()).filter(|&c| has(fresh, c)).map(|c| self.grid.place(c)).collect();
+            (0..self.grid.cells()).filter(|&c| fresh.contains(c)).map(|c| self.grid.place(c)).collect();
         if !places.is_empty() {
             let mean = |k: usize| places.iter().map(|place| place[k]).sum::<f64>() / places.len() as f64;
             self.hits.push((joints.to_vec(), [mean(0), mean(1)]));
         }
         if accepted {
-            self.painted.iter_mut().zip(fresh).for_each(|(p, f)| *p |= f);
+            self.painted.extend(fresh);
         }
     }
 
@@ -86,7 +83,7 @@ impl CellPredictor {
         let middle = self.grid.middle();
         let weights = [0, 1].map(|k| factor.solve(&DVector::from_fn(count, |i, _| self.hits[i].1[k] - middle[k])));
         let open: Vec<[f64; 2]> =
-            (0..self.grid.cells()).filter(|&c| !has(&self.painted, c)).map(|c| self.grid.place(c)).collect();
+            (0..self.grid.cells()).filter(|&c| !self.painted.contains(c)).map(|c| self.grid.place(c)).collect();
         let of = |pose: &Vec<f64>| {
             let near = DVector::from_fn(count, |i, _| kernel(pose, &self.hits[i].0));
             let place = [0, 1].map(|k| middle[k] + near.dot(&weights[k]));
@@ -104,6 +101,7 @@ impl CellPredictor {
 #[cfg(test)]
 mod tests {
     use super::{CellPredictor, Grid};
+    use crate::CellSet;
 
     fn squared(a: &[f64], b: &[f64]) -> f64 {
         a.iter().zip(b).map(|(x, y)| (x - y).to_degrees().powi(2)).sum()
@@ -115,11 +113,11 @@ mod tests {
         let poses: Vec<Vec<f64>> = [0.0, 0.4, 0.8].map(|q| vec![q]).to_vec();
         assert_eq!(predictor.chances(&poses, squared), None);
         // cells 0 and 2 of the first row; what lies between leads to cell 1
-        predictor.tell(&[0.0], &[0b001], true);
-        predictor.tell(&[0.8], &[0b100], true);
+        predictor.tell(&[0.0], &CellSet::from(vec![0b001]), true);
+        predictor.tell(&[0.8], &CellSet::from(vec![0b100]), true);
         let open = predictor.chances(&poses, squared).unwrap();
         assert!(open[1] > 1.3 * open[0] && open[1] > 1.3 * open[2], "{open:?}");
-        predictor.tell(&[0.4], &[0b010], true);
+        predictor.tell(&[0.4], &CellSet::from(vec![0b010]), true);
         let closed = predictor.chances(&poses, squared).unwrap();
         assert!(closed[1] < 0.7 * open[1], "{closed:?} after {open:?}");
     }
@@ -128,7 +126,7 @@ mod tests {
     fn what_is_gained_but_not_kept_stays_open() {
         let kept = |accepted| {
             let mut predictor = CellPredictor::new(Grid { columns: 2, rows: 2 });
-            predictor.tell(&[0.1], &[0b0001], accepted);
+            predictor.tell(&[0.1], &CellSet::from(vec![0b0001]), accepted);
             predictor.chances(&[vec![0.1]], squared).unwrap()[0]
         };
         assert!(kept(false) > kept(true) + 0.1, "{} {}", kept(false), kept(true));

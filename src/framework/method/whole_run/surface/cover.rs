@@ -4,6 +4,7 @@
 //! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
 //! trial stays. The goal pointer is the first goal above what is observed.
 
+use crate::CellSet;
 use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
 use crate::method::parameters::parameters;
 use crate::method::whole_run::{GoalOutcome, NextTrial, Trial};
@@ -42,7 +43,7 @@ pub(in crate::method::whole_run) struct Ledger {
     /// What the world shows after the accepted trials, features' unit.
     level: f64,
     /// The cells it shows then, where cells are seen.
-    cells: Vec<u64>,
+    cells: CellSet,
     /// The first trial that left the world as it was at the start.
     idle: Option<usize>,
     straight_overshoots: u32,
@@ -53,14 +54,9 @@ pub(in crate::method::whole_run) struct Ledger {
 pub(in crate::method::whole_run) struct TrialEffect {
     /// Steps gained over the accepted trials; none when the observation was lost.
     pub gain: Option<f64>,
-    /// The cells gained, 64 a word; none where they are not seen.
-    pub fresh: Option<Vec<u64>>,
+    /// The cells gained; `None` if cells are not seen.
+    pub fresh: Option<CellSet>,
     pub accepted: bool,
-}
-
-/// How many of `cells` are not in `painted`.
-pub(in crate::method::whole_run) fn fresh_count(cells: &[u64], painted: &[u64]) -> u32 {
-    cells.iter().zip(painted).map(|(c, p)| (c & !p).count_ones()).sum()
 }
 
 impl Ledger {
@@ -78,7 +74,7 @@ impl Ledger {
             log: Vec::new(),
             accepted: Vec::new(),
             level,
-            cells: Vec::new(),
+            cells: CellSet::default(),
             idle: None,
             straight_overshoots: 0,
         }
@@ -108,9 +104,7 @@ impl Ledger {
         let one = gain.is_some_and(|g| (g - 1.0).abs() < 0.5);
         let more = gain.is_some_and(|g| g >= 1.5);
         let accepted = !self.resets || one || (more && self.straight_overshoots >= 2);
-        let before = |word: usize| self.cells.get(word).copied().unwrap_or(0);
-        let fresh = |cells: &Vec<u64>| cells.iter().enumerate().map(|(word, c)| c & !before(word)).collect();
-        let fresh: Option<Vec<u64>> = trial.cells.as_ref().map(fresh);
+        let fresh = trial.cells.as_ref().map(|cells| cells.difference(&self.cells));
         if self.accepted.is_empty() && gain.is_some_and(|g| g.abs() < 0.5) {
             self.idle = self.idle.or(Some(self.log.len()));
         }

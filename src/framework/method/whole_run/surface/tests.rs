@@ -87,7 +87,7 @@ fn a_gain_of_two_is_refused_while_the_world_can_be_put_back() {
     let mut told = |gained: u64| {
         let NextTrial::Execute { joints, goal } = run.ask() else { panic!("not over") };
         let observation = Some(vec![25.0 * f64::from(gained.count_ones())]);
-        run.tell(Trial { joints, observation, cells: Some(vec![gained]), goal });
+        run.tell(Trial { joints, observation, cells: Some(vec![gained].into()), goal });
         run.accepted().len()
     };
     assert_eq!([told(0b0011), told(0b0001), told(0b0001), told(0b0111), told(0b0011)], [0, 1, 1, 1, 2]);
@@ -105,7 +105,7 @@ fn seen_cells_lead_to_the_others() {
     while let NextTrial::Execute { joints, goal } = run.ask() {
         painted |= strip(joints[0]);
         let observation = Some(vec![25.0 * f64::from(painted.count_ones())]);
-        run.tell(Trial { joints, observation, cells: Some(vec![painted]), goal });
+        run.tell(Trial { joints, observation, cells: Some(vec![painted].into()), goal });
     }
     assert!(painted == 0b1111 && run.log().len() <= 8, "{:?}", run.log());
 }
