@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::app::model::{RobotId, Timestamp};
     use crate::framework::robot::{Chain, RobotModel, summarize, summarize_chain};
-    use crate::framework::world::RealitySpec;
+    use crate::framework::world::DisturbanceSpec;
     use crate::reproduce::shipped;
 
     fn robot(problem: &Problem) -> RobotView {
@@ -155,7 +155,7 @@ mod tests {
         tool.robot.tool_offset_m[2] += 0.01;
         assert_ne!(of(&tool, 1, 1), same);
         let mut drawn = problem.clone();
-        drawn.execution.reality = Some(RealitySpec { link_share: 0.05, ..RealitySpec::default() });
+        drawn.execution.reality = Some(DisturbanceSpec { link_share: 0.05, ..DisturbanceSpec::default() });
         assert!(of(&drawn, 1, 1).is_some() && of(&drawn, 1, 1) != of(&drawn, 2, 1));
         assert_eq!(of(&drawn, 1, 2), None, "each repetition meets a robot of its own");
         let mut own = drawn.clone();

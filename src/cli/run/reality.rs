@@ -2,7 +2,7 @@
 
 use crate::framework::execution::Problem;
 use crate::framework::method::Knowledge;
-use crate::framework::world::{self, RealitySpec, SurfaceView, WorldSpec};
+use crate::framework::world::{self, DisturbanceSpec, SurfaceView, WorldSpec};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct RealityArguments {
@@ -37,7 +37,7 @@ impl RealityArguments {
         let per_mm = per_mm(&problem.world);
         let mut reality = problem.execution.reality.take().unwrap_or_default();
         if simulator || self.distort {
-            reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..reality };
+            reality = DisturbanceSpec { link_share: 0.05, base_shift_m: 0.02, ..reality };
         }
         if self.noise {
             reality.joint_noise_deg = 0.1;

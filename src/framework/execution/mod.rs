@@ -6,6 +6,8 @@ mod checks;
 #[cfg(test)]
 mod choice_tests;
 mod discrepancy;
+#[cfg(test)]
+mod disturbed_tests;
 mod error;
 mod estimate;
 mod goal_search;
@@ -13,8 +15,6 @@ mod iet;
 #[cfg(test)]
 mod model_tests;
 mod observations;
-#[cfg(test)]
-mod real_tests;
 mod result;
 mod setup;
 mod simulate;

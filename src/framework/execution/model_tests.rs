@@ -8,7 +8,7 @@ use crate::method::per_goal::StopReason;
 use crate::method::whole_run::{ModelSpec, Prior, Trial};
 use crate::preset::shipped;
 use crate::robot::RobotSpec;
-use crate::world::RealitySpec;
+use crate::world::DisturbanceSpec;
 use rstest::rstest;
 
 /// The first `goals` goals of wax-reachable, by MODEL-IET.
@@ -52,10 +52,10 @@ fn killed_at_each_evaluation_it_ends_with_the_same_bits(
     #[case] noise: bool,
 ) {
     let mut problem = wax(3);
-    let mut reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..RealitySpec::default() };
+    let mut reality = DisturbanceSpec { link_share: 0.05, base_shift_m: 0.02, ..DisturbanceSpec::default() };
     let mut spec = ModelSpec { prior, ..ModelSpec::default() };
     if noise {
-        reality = RealitySpec { sensor_noise: 2.0, joint_noise_deg: 0.1, lost_share: 0.1, ..reality };
+        reality = DisturbanceSpec { sensor_noise: 2.0, joint_noise_deg: 0.1, lost_share: 0.1, ..reality };
         spec.noise = 2.5;
     }
     problem.execution.reality = Some(reality);

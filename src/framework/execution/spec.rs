@@ -6,7 +6,7 @@ use crate::method::whole_run::Trial;
 use crate::method::{Chosen, MethodChoice, MethodSpec, choose, method_or_name};
 use crate::recognition::Metric;
 use crate::robot::RobotSpec;
-use crate::world::{RealitySpec, WorldSpec};
+use crate::world::{DisturbanceSpec, WorldSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -58,7 +58,7 @@ pub struct ExecutionSpec {
     pub rounding_noise: f64,
     /// How far the simulated real world is from its description; as described when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reality: Option<RealitySpec>,
+    pub reality: Option<DisturbanceSpec>,
     /// What every candidate must satisfy.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub constraints: Vec<ConstraintSpec>,

@@ -47,9 +47,9 @@ pub enum WorldError {
         /// Number of cells along it.
         count: u32,
     },
-    /// A number of the simulated reality is out of range.
+    /// A number of a [`DisturbanceSpec`](super::DisturbanceSpec) (`reality` in a problem) is out of range.
     #[error("reality.{field} is {value:?}: give {expected}")]
-    Reality {
+    Disturbance {
         /// Name of the field.
         field: &'static str,
         /// Value given.

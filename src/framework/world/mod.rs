@@ -5,18 +5,18 @@
 //! - [`World::observe`] changes nothing that can be observed, and allocates nothing.
 
 mod coverage;
+mod disturbed;
 mod error;
 mod properties;
-mod real;
 mod spec;
 #[cfg(test)]
 mod tests;
 mod tool_distance;
 mod tool_position;
 
+pub use disturbed::{DisturbanceSpec, build_disturbed};
 pub use error::WorldError;
 pub use properties::{Surface, WorldProperties};
-pub use real::{RealitySpec, build_real};
 pub use spec::{CoverageSpec, SurfaceView, ToolDistanceSpec, ToolPositionSpec, WorldSpec};
 
 use crate::robot::Chain;
@@ -55,18 +55,18 @@ pub fn build(spec: &WorldSpec, chain: &Chain) -> Result<Box<dyn World>, WorldErr
     })
 }
 
-/// The world of `spec` as described, or as far off as `reality` says; `seed` is the run's.
+/// The world of `spec`, as described or disturbed; `seed` is that of the run.
 ///
 /// # Errors
-/// [`WorldError`] as [`build`] and [`build_real`].
+/// [`WorldError`] as [`build`] and [`build_disturbed`].
 pub fn simulated(
     spec: &WorldSpec,
-    reality: Option<&RealitySpec>,
+    disturbance: Option<&DisturbanceSpec>,
     chain: &Chain,
     seed: u64,
 ) -> Result<Box<dyn World>, WorldError> {
-    match reality {
-        Some(reality) => build_real(spec, chain, reality, seed),
+    match disturbance {
+        Some(disturbance) => build_disturbed(spec, chain, disturbance, seed),
         None => build(spec, chain),
     }
 }

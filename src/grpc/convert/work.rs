@@ -5,7 +5,7 @@ use super::{constraint, experiment, finite, finite_or_none, list, method, refere
 use crate::app::model::{AppError, CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
 use crate::framework::constraint::HandlingSpec;
 use crate::framework::execution::{Chosen, ExecutionSpec};
-use crate::framework::world::RealitySpec;
+use crate::framework::world::DisturbanceSpec;
 use crate::grpc::proto;
 use proto::execution_spec::MethodChoice;
 use proto::work::Kind;
@@ -109,7 +109,7 @@ fn spec(spec: proto::ExecutionSpec) -> Result<ExecutionSpec, AppError> {
     })
 }
 
-fn reality(message: proto::RealitySpec) -> Result<RealitySpec, AppError> {
+fn reality(message: proto::RealitySpec) -> Result<DisturbanceSpec, AppError> {
     let proto::RealitySpec {
         link_share,
         base_shift_m,
@@ -121,7 +121,7 @@ fn reality(message: proto::RealitySpec) -> Result<RealitySpec, AppError> {
         seed,
     } = message;
     let number = |field: &str, value: f64| finite(&format!("/execution/reality/{field}"), value);
-    Ok(RealitySpec {
+    Ok(DisturbanceSpec {
         link_share: number("link_share", link_share)?,
         base_shift_m: number("base_shift_m", base_shift_m)?,
         sensor_noise: number("sensor_noise", sensor_noise)?,
@@ -230,9 +230,9 @@ impl From<ExecutionSpec> for proto::ExecutionSpec {
     }
 }
 
-impl From<RealitySpec> for proto::RealitySpec {
-    fn from(spec: RealitySpec) -> Self {
-        let RealitySpec {
+impl From<DisturbanceSpec> for proto::RealitySpec {
+    fn from(spec: DisturbanceSpec) -> Self {
+        let DisturbanceSpec {
             link_share,
             base_shift_m,
             sensor_noise,

@@ -1,5 +1,5 @@
-//! A simulated *real* world: the robot deviates from its description, sensors and joints are noisy, observations are
-//! late or lost.
+//! A simulated world with an imperfect robot: it deviates from its description, its sensors and joints are noisy, and
+//! its observations are late or lost.
 //!
 //! Invariants: random draws depend only on the seed, and the noise of a trial only on the seed and its pose; slices,
 //! resumes and threads do not change a bit. A lost observation is NaN in every feature.
@@ -15,7 +15,8 @@ use utoipa::ToSchema;
 /// Deviation of the simulated reality from its description.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct RealitySpec {
+#[schema(as = RealitySpec)]
+pub struct DisturbanceSpec {
     /// Maximum relative error of each link's length, uniformly distributed.
     pub link_share: f64,
     /// Distance by which the base is shifted in a random direction, metres.
@@ -45,7 +46,7 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
-impl RealitySpec {
+impl DisturbanceSpec {
     /// Whether links or base are drawn, so that another seed gives another robot.
     #[must_use]
     pub fn is_distorted(&self) -> bool {
@@ -63,31 +64,31 @@ impl RealitySpec {
             ("settle_s", self.settle_s, 0.0..=3600.0, "0 to 3600 s"),
         ];
         let wrong = ranges.into_iter().find(|(_, value, range, _)| !range.contains(value));
-        wrong.map_or(Ok(()), |(field, value, _, expected)| Err(WorldError::Reality { field, value, expected }))
+        wrong.map_or(Ok(()), |(field, value, _, expected)| Err(WorldError::Disturbance { field, value, expected }))
     }
 }
 
-/// Builds the world of `spec` around a robot that deviates from `chain` as `reality` says; `seed` is the run's.
+/// Builds the world of `spec` around a robot that deviates from `chain` as `disturbance` says; `seed` is the run's.
 ///
 /// # Errors
-/// [`WorldError`] as for [`build`], and for a number of `reality` out of range.
-pub fn build_real(
+/// [`WorldError`] as for [`build`], and for a number of `disturbance` out of range.
+pub fn build_disturbed(
     spec: &WorldSpec,
     chain: &Chain,
-    reality: &RealitySpec,
+    disturbance: &DisturbanceSpec,
     seed: u64,
 ) -> Result<Box<dyn World>, WorldError> {
-    reality.check()?;
-    let mut random = RandomStream::of_run(reality.seed.unwrap_or(seed), 0);
+    disturbance.check()?;
+    let mut random = RandomStream::of_run(disturbance.seed.unwrap_or(seed), 0);
     let mut off = || 2.0 * random.unit() - 1.0;
-    let scales: Vec<f64> = (0..chain.link_count()).map(|_| 1.0 + reality.link_share * off()).collect();
+    let scales: Vec<f64> = (0..chain.link_count()).map(|_| 1.0 + disturbance.link_share * off()).collect();
     let direction = nalgebra::Vector3::new(off(), off(), off());
-    let shift = direction.try_normalize(1e-9).unwrap_or_default() * reality.base_shift_m;
+    let shift = direction.try_normalize(1e-9).unwrap_or_default() * disturbance.base_shift_m;
     let inner = build(spec, &chain.distorted(&scales, shift.into()))?;
-    Ok(Box::new(Real {
+    Ok(Box::new(Disturbed {
         effect: vec![0.0; inner.features().len()],
         inner,
-        reality: reality.clone(),
+        disturbance: disturbance.clone(),
         seed,
         limits: limits(chain).0,
         home: chain.home().to_vec(),
@@ -97,9 +98,9 @@ pub fn build_real(
     }))
 }
 
-struct Real {
+struct Disturbed {
     inner: Box<dyn World>,
-    reality: RealitySpec,
+    disturbance: DisturbanceSpec,
     seed: u64,
     limits: Vec<JointLimits>,
     home: Vec<f64>,
@@ -113,7 +114,7 @@ struct Real {
     effect: Vec<f64>,
 }
 
-impl Real {
+impl Disturbed {
     /// Computes where the joints really move and where they are observed; returns the random stream of the trial's
     /// noise.
     fn act(&mut self, joints: &[f64]) -> RandomStream {
@@ -123,9 +124,9 @@ impl Real {
         }
         let mut random = RandomStream::of_run(word, 0);
         for (moved, joint) in self.moved.iter_mut().zip(joints) {
-            *moved = joint + self.reality.joint_noise_deg.to_radians() * random.normal();
+            *moved = joint + self.disturbance.joint_noise_deg.to_radians() * random.normal();
         }
-        let lag_s = self.reality.latency_s - self.reality.settle_s;
+        let lag_s = self.disturbance.latency_s - self.disturbance.settle_s;
         if lag_s > 0.0 {
             late(&self.limits, &self.before, &self.moved, lag_s, &mut self.seen);
         } else {
@@ -136,15 +137,15 @@ impl Real {
 
     fn sense(&self, mut random: RandomStream, observation: &mut [f64]) {
         for value in observation.iter_mut() {
-            *value += self.reality.sensor_noise * random.normal();
+            *value += self.disturbance.sensor_noise * random.normal();
         }
-        if random.unit() < self.reality.lost_share {
+        if random.unit() < self.disturbance.lost_share {
             observation.fill(f64::NAN);
         }
     }
 }
 
-impl World for Real {
+impl World for Disturbed {
     fn features(&self) -> &[Feature] {
         self.inner.features()
     }
@@ -187,10 +188,10 @@ mod tests {
         (problem.world, Chain::new(&model, &problem.robot).unwrap())
     }
 
-    fn observed(reality: &RealitySpec, seed: u64, joints: &[f64]) -> Vec<f64> {
+    fn observed(disturbance: &DisturbanceSpec, seed: u64, joints: &[f64]) -> Vec<f64> {
         let (spec, chain) = wax();
         let mut seen = vec![0.0; 3];
-        build_real(&spec, &chain, reality, seed).unwrap().observe(joints, &mut seen);
+        build_disturbed(&spec, &chain, disturbance, seed).unwrap().observe(joints, &mut seen);
         seen
     }
 
@@ -201,47 +202,49 @@ mod tests {
         let (_, chain) = wax();
         let spec = PlanSpec { dwell_s: 0.0, ..PlanSpec::default() };
         let duration_s = plan(&chain, chain.home(), &[POSE.to_vec()], &spec).unwrap().duration_s();
-        let late = |latency_s, settle_s| RealitySpec { latency_s, settle_s, ..RealitySpec::default() };
-        let exact = observed(&RealitySpec::default(), 1, &POSE);
+        let late = |latency_s, settle_s| DisturbanceSpec { latency_s, settle_s, ..DisturbanceSpec::default() };
+        let exact = observed(&DisturbanceSpec::default(), 1, &POSE);
         assert_eq!(observed(&late(0.2, 0.2), 1, &POSE), exact);
-        assert_eq!(observed(&late(1e3, 0.0), 1, &POSE), observed(&RealitySpec::default(), 1, chain.home()));
+        assert_eq!(observed(&late(1e3, 0.0), 1, &POSE), observed(&DisturbanceSpec::default(), 1, chain.home()));
         let halfway: Vec<f64> = POSE.iter().zip(chain.home()).map(|(q, h)| 0.5 * (q + h)).collect();
-        let (found, expected) =
-            (observed(&late(0.5 * duration_s + 0.1, 0.1), 1, &POSE), observed(&RealitySpec::default(), 1, &halfway));
+        let (found, expected) = (
+            observed(&late(0.5 * duration_s + 0.1, 0.1), 1, &POSE),
+            observed(&DisturbanceSpec::default(), 1, &halfway),
+        );
         assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} is not {expected:?}");
     }
 
     #[test]
     fn a_late_observation_starts_where_the_prefix_ends_and_the_prefix_is_where_it_was_sent() {
         let (spec, chain) = wax();
-        let reality = RealitySpec { latency_s: 1e3, ..RealitySpec::default() };
-        let mut world = build_real(&spec, &chain, &reality, 1).unwrap();
+        let disturbance = DisturbanceSpec { latency_s: 1e3, ..DisturbanceSpec::default() };
+        let mut world = build_disturbed(&spec, &chain, &disturbance, 1).unwrap();
         let (mut before, mut after) = (vec![0.0; 3], vec![0.0; 3]);
         world.commit(&POSE, &mut before);
         world.observe(&[0.0; 3], &mut after);
-        assert_eq!(after, observed(&RealitySpec::default(), 1, &POSE));
+        assert_eq!(after, observed(&DisturbanceSpec::default(), 1, &POSE));
         world.reset();
         world.observe(&[0.0; 3], &mut after);
-        assert_eq!(after, observed(&RealitySpec::default(), 1, chain.home()));
+        assert_eq!(after, observed(&DisturbanceSpec::default(), 1, chain.home()));
     }
 
     #[test]
     fn a_robot_of_its_own_is_the_same_in_every_run() {
-        let mut reality = RealitySpec { link_share: 0.05, base_shift_m: 0.02, ..RealitySpec::default() };
-        assert_ne!(observed(&reality, 1, &POSE), observed(&reality, 2, &POSE));
-        reality.seed = Some(9);
-        assert_eq!(observed(&reality, 1, &POSE), observed(&reality, 2, &POSE));
-        reality.sensor_noise = 1.0;
-        assert_ne!(observed(&reality, 1, &POSE), observed(&reality, 2, &POSE));
+        let mut disturbance = DisturbanceSpec { link_share: 0.05, base_shift_m: 0.02, ..DisturbanceSpec::default() };
+        assert_ne!(observed(&disturbance, 1, &POSE), observed(&disturbance, 2, &POSE));
+        disturbance.seed = Some(9);
+        assert_eq!(observed(&disturbance, 1, &POSE), observed(&disturbance, 2, &POSE));
+        disturbance.sensor_noise = 1.0;
+        assert_ne!(observed(&disturbance, 1, &POSE), observed(&disturbance, 2, &POSE));
     }
 
     #[rstest]
-    #[case(RealitySpec { lost_share: 1.0, ..RealitySpec::default() }, "lost_share is 1.0")]
-    #[case(RealitySpec { latency_s: -0.1, ..RealitySpec::default() }, "latency_s is -0.1")]
-    #[case(RealitySpec { sensor_noise: f64::NAN, ..RealitySpec::default() }, "sensor_noise is NaN")]
-    fn refuses_numbers_out_of_range(#[case] reality: RealitySpec, #[case] told: &str) {
+    #[case(DisturbanceSpec { lost_share: 1.0, ..DisturbanceSpec::default() }, "lost_share is 1.0")]
+    #[case(DisturbanceSpec { latency_s: -0.1, ..DisturbanceSpec::default() }, "latency_s is -0.1")]
+    #[case(DisturbanceSpec { sensor_noise: f64::NAN, ..DisturbanceSpec::default() }, "sensor_noise is NaN")]
+    fn refuses_numbers_out_of_range(#[case] disturbance: DisturbanceSpec, #[case] told: &str) {
         let (spec, chain) = wax();
-        let error = build_real(&spec, &chain, &reality, 1).err().unwrap().to_string();
+        let error = build_disturbed(&spec, &chain, &disturbance, 1).err().unwrap().to_string();
         assert!(error.contains(told), "{error}");
     }
 }

@@ -1,10 +1,10 @@
-//! Runs in a simulated real world that loses observations: every method goes on, and each lost one costs.
+//! Runs in a simulated world that loses observations: every method goes on, and each lost one costs.
 
 use super::*;
 use crate::method::MethodSpec;
 use crate::method::per_goal::{Batch, Provenance};
 use crate::preset::shipped;
-use crate::world::RealitySpec;
+use crate::world::DisturbanceSpec;
 use rstest::rstest;
 
 #[rstest]
@@ -15,7 +15,7 @@ fn every_method_survives_lost_observations(
     let mut problem = shipped(if paint { "paint" } else { "wax" }).unwrap().problem;
     problem.execution.method = MethodSpec::by_name(method).unwrap();
     problem.execution.max_evaluations_per_goal = (!paint).then_some(60);
-    problem.execution.reality = Some(RealitySpec { lost_share: 0.3, ..RealitySpec::default() });
+    problem.execution.reality = Some(DisturbanceSpec { lost_share: 0.3, ..DisturbanceSpec::default() });
     let mut iet = Iet::new(&problem, 11).unwrap();
     let mut world = iet.world().unwrap();
     let mut batch = Batch::new(3, 1);
