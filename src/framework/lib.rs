@@ -12,6 +12,7 @@
 pub mod cells;
 pub mod constraint;
 pub mod demonstration;
+pub mod distance;
 pub mod execution;
 pub mod experiment;
 pub mod feature;

@@ -30,6 +30,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("lifecycle", &["lifecycle", "app"]),
     // the inside of the core, from the bottom; its unit tests may name everything
     ("framework/cells", &[]),
+    ("framework/distance", &[]),
     ("framework/feature", &[]),
     ("framework/name", &[]),
     ("framework/random", &[]),
@@ -39,11 +40,14 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
         &["demonstration", "Feature", "is_display_name", "is_hidden", "MAX_DISPLAY_NAME_CHARS"],
     ),
     ("framework/generalization", &["generalization", "demonstration", "Feature"]),
-    ("framework/recognition", &["recognition", "generalization", "demonstration", "Feature"]),
+    ("framework/recognition", &["recognition", "generalization", "demonstration", "distance", "Feature"]),
     ("framework/robot", &["robot", "is_hidden"]),
     ("framework/trajectory", &["trajectory", "robot", "range"]),
     ("framework/world", &["world", "trajectory", "robot", "random", "CellSet", "Feature"]),
-    ("framework/method", &["method", "constraint", "world", "robot", "random", "CellSet", "infinite_as_null"]),
+    (
+        "framework/method",
+        &["method", "constraint", "world", "robot", "random", "distance", "CellSet", "infinite_as_null"],
+    ),
     ("framework/constraint", &["constraint", "method", "robot", "random", "range"]),
     (
         "framework/execution",
@@ -56,6 +60,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "recognition",
             "generalization",
             "random",
+            "distance",
             "CellSet",
             "Feature",
         ],

@@ -3,6 +3,7 @@
 use super::Metric;
 use super::dtw::{self, Border};
 use crate::Feature;
+use crate::distance::distance;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -68,10 +69,10 @@ pub(super) fn detailed(metric: Metric, observed: &[f64], goals: &[f64], features
     };
     let mut parts = vec![0.0; m];
     for &pair in &alignment.path[counted_from..] {
-        let distance = pair_distance(observed, goals, m, pair);
-        if distance > 0.0 {
+        let apart = pair_distance(observed, goals, m, pair);
+        if apart > 0.0 {
             for (part, (o, x)) in parts.iter_mut().zip(row(observed, m, pair.0).iter().zip(row(goals, m, pair.1))) {
-                *part += (o - x) * (o - x) / distance;
+                *part += (o - x) * (o - x) / apart;
             }
         }
     }
@@ -135,8 +136,7 @@ fn mean_distance(observed: &[f64], goals: &[f64], m: usize, path: &[(usize, usiz
 }
 
 fn pair_distance(observed: &[f64], goals: &[f64], m: usize, (i, j): (usize, usize)) -> f64 {
-    let pairs = row(observed, m, i).iter().zip(row(goals, m, j));
-    pairs.map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
+    distance(row(observed, m, i), row(goals, m, j))
 }
 
 fn row(values: &[f64], m: usize, i: usize) -> &[f64] {

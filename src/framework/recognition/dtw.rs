@@ -10,6 +10,8 @@
 //! Source: H. Sakoe, S. Chiba, "Dynamic programming algorithm optimization for spoken word recognition", IEEE Trans.
 //! ASSP 26 (1978), DOI 10.1109/TASSP.1978.1163055; `Border::Local` follows the Aquila library used for the paper.
 
+use crate::distance::distance as euclidean;
+
 /// Content of the first row and the first column of the accumulated matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Border {
@@ -29,8 +31,7 @@ pub fn local_distances(observation: &[f64], goals: &[f64], out: &mut [f64]) {
     let m = observation.len();
     assert!(m > 0 && goals.len() >= out.len() * m, "{} goal values for {} goals of {m}", goals.len(), out.len());
     for (distance, goal) in out.iter_mut().zip(goals.chunks_exact(m)) {
-        let squared: f64 = observation.iter().zip(goal).map(|(o, x)| (o - x) * (o - x)).sum();
-        *distance = squared.sqrt();
+        *distance = euclidean(observation, goal);
     }
 }
 

@@ -6,6 +6,7 @@ use crate::app::model::{
 };
 use crate::app::ports::{KeptTrials, NewRun};
 use crate::app::trajectories::{digest, plan_through};
+use crate::framework::distance::distance;
 use crate::framework::execution::{Iet, ProblemError, RunResult};
 use crate::framework::trajectory::CheckedTrajectory;
 use uuid::Uuid;
@@ -133,11 +134,6 @@ pub(super) fn check_finite(goal: u32, discrepancy: f64, observation: &[f64]) -> 
         return Err(format!("the discrepancy of goal {goal} is not finite ({discrepancy}): {remedy}"));
     }
     Ok(())
-}
-
-/// Euclidean distance, features' unit.
-pub(super) fn distance(observation: &[f64], goal: &[f64]) -> f64 {
-    observation.iter().zip(goal).map(|(o, x)| (o - x) * (o - x)).sum::<f64>().sqrt()
 }
 
 /// One point per improvement, in evaluations since the run began.

@@ -1,8 +1,8 @@
 //! Progress of an execution, in the terms of the API.
 
-use super::record::distance;
 use crate::app::model::{GoalProgress, JobProgress, TrialProgress};
 use crate::app::ports::NewRun;
+use crate::framework::distance::distance;
 use crate::framework::execution::{GoalResult, Problem, Progress};
 use crate::framework::method::whole_run::Trial;
 use std::collections::BTreeSet;

@@ -17,11 +17,11 @@
 //! Source: C. G. Broyden, "A class of methods for solving nonlinear simultaneous equations", Math. Comp. 19 (1965),
 //! DOI 10.1090/S0025-5718-1965-0198670-6.
 
-use super::distance::distance;
 use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::refine::{Local, refine};
 use super::space::Space;
 use super::steps::Targets;
+use crate::distance::distance;
 use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
 use crate::method::parameters::parameters;
 use crate::world::WorldError;

@@ -10,7 +10,6 @@
 //! - No kinematics is needed: joints in, features out, limits known. A simulator is a prior, not a requirement.
 
 mod broyden;
-mod distance;
 mod model;
 mod particle;
 mod planner;

@@ -10,6 +10,7 @@
 
 use super::space::Space;
 use super::{GoalOutcome, NextTrial, Trial, WholeRun};
+use crate::distance::squared_distance;
 use crate::random::RandomStream;
 
 /// Number of poses tried around a blocked one, per spread.
@@ -122,7 +123,6 @@ impl Stepped {
         let observed: Vec<(usize, &Trial, &[f64])> =
             log.iter().enumerate().filter_map(|(i, t)| Some((i, t, t.observation.as_deref()?))).collect();
         let within = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(x, y)| (x - y).abs() <= limit);
-        let miss = |goal: &[f64], seen: &[f64]| goal.iter().zip(seen).map(|(g, s)| (g - s).powi(2)).sum::<f64>();
         // cost[t]: smallest sum over the goals so far if trial t serves the last one; chosen[goal][t]: the trial before
         // it.
         let mut cost: Vec<f64> = observed
@@ -141,13 +141,13 @@ impl Stepped {
                 near.min_by(|&a, &b| cost[a].total_cmp(&cost[b])).unwrap_or(t)
             };
             let before: Vec<usize> = (0..observed.len()).map(best_before).collect();
-            cost = (0..observed.len()).map(|t| cost[before[t]] + miss(goal, observed[t].2)).collect();
+            cost = (0..observed.len()).map(|t| cost[before[t]] + squared_distance(goal, observed[t].2)).collect();
             chosen.push(before);
         }
         let mut at = (0..observed.len()).min_by(|&a, &b| cost[a].total_cmp(&cost[b]))?;
         let mut outcomes = Vec::with_capacity(chosen.len());
         for (goal, before) in self.targets.goals.iter().zip(&chosen).rev() {
-            let distance = miss(goal, observed[at].2).sqrt();
+            let distance = squared_distance(goal, observed[at].2).sqrt();
             outcomes.push(GoalOutcome {
                 trial: Some(observed[at].0),
                 distance,

@@ -3,6 +3,7 @@
 //! Symbols: parents p1, p2 and child, n genes; L, U the gene's limits; a = U(0, 1); coin: swap the parents with
 //! probability 1/2; d uniform in 0..n. An operator may write values outside the limits; the caller handles them.
 
+use crate::distance::distance;
 use crate::random::RandomStream;
 
 /// Genes closer than this (rad or m; 1e-12 degrees) count as equal in [`simulated_binary`].
@@ -135,8 +136,8 @@ fn breeder(parents: &Parents<'_>, child: &mut [f64], rng: &mut RandomStream) {
     let gamma: f64 = (0..16).map(|i| if rng.below(16) == 15 { 0.5_f64.powi(i) } else { 0.0 }).sum();
     let (better, worse) =
         if parents.fitness[0] < parents.fitness[1] { (parents.p1, parents.p2) } else { (parents.p2, parents.p1) };
-    let distance = better.iter().zip(worse).map(|(b, w)| (b - w) * (b - w)).sum::<f64>().sqrt();
-    let norm = if distance < BGA_EQUAL { 1.0 } else { distance };
+    let apart = distance(better, worse);
+    let norm = if apart < BGA_EQUAL { 1.0 } else { apart };
     for (gene, value) in child.iter_mut().enumerate() {
         let (lower, upper) = (parents.lower[gene], parents.upper[gene]);
         let range = (upper - lower) / 2.0;

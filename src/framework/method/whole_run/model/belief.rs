@@ -2,7 +2,7 @@
 
 use super::kernel::Poses;
 use super::process::{Family, Process};
-use crate::method::whole_run::distance::{distance, squared_distance};
+use crate::distance::{distance, squared_distance};
 use crate::method::whole_run::refine::Local;
 use crate::method::whole_run::space::Space;
 use crate::method::whole_run::{FeatureMap, Trial};

@@ -20,10 +20,10 @@ pub(super) mod tests;
 
 pub use spec::{ModelSpec, Prior};
 
-use super::distance::distance;
 use super::planner::{FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::Space;
 use super::steps::Targets;
+use crate::distance::distance;
 use crate::random::RandomStream;
 use crate::world::WorldError;
 use belief::{Aim, Belief};

@@ -6,7 +6,7 @@
 
 use super::belief::{Aim, Belief};
 use crate::method::whole_run::FeatureMap;
-use crate::method::whole_run::distance::{distance, squared_distance};
+use crate::distance::{distance, squared_distance};
 use crate::method::whole_run::refine::{Local, refine};
 use crate::method::whole_run::space::Space;
 use crate::random::RandomStream;
