@@ -8,6 +8,7 @@ mod reality;
 mod seeded;
 
 use crate::framework::execution::{Iet, ROBOT_TRIAL_S, RunResult, simulate};
+use crate::framework::range::above;
 use anyhow::Context as _;
 use figures::Figures;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -59,8 +60,9 @@ pub struct RunArguments {
 }
 
 fn positive(argument: &str) -> Result<f64, String> {
-    let value = argument.parse().ok().filter(|value: &f64| *value > 0.0 && *value <= 1e9);
-    value.ok_or_else(|| "give a number above 0 and up to 1e9".to_owned())
+    let range = above(0.0).up_to(1e9);
+    let value = argument.parse().ok().filter(|&value| range.contains(value));
+    value.ok_or_else(|| format!("give {range}"))
 }
 
 /// Runs the problem and prints its results.

@@ -23,6 +23,7 @@ pub mod method;
 mod name;
 pub mod preset;
 pub mod random;
+pub mod range;
 pub mod recognition;
 pub mod robot;
 pub mod trajectory;

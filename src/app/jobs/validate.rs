@@ -4,6 +4,7 @@ use super::kind;
 use crate::app::model::{AppError, CostEstimate, CreateJob, ErrorKind, Validation, limits};
 use crate::app::{App, compute};
 use crate::framework::execution::{Chosen, ROBOT_TRIAL_S};
+use crate::framework::range::above;
 use std::sync::Arc;
 
 impl App {
@@ -29,11 +30,10 @@ impl App {
         request: CreateJob,
         robot_trial_s: f64,
     ) -> Result<(CostEstimate, Option<Chosen>), AppError> {
-        if !(robot_trial_s > 0.0 && robot_trial_s <= limits::MAX_TRIAL_S) {
-            let detail =
-                format!("robot_trial_s is {robot_trial_s}: give a time above 0 and up to {} s", limits::MAX_TRIAL_S);
-            return Err(AppError::field("/robot_trial_s", "out_of_range", detail));
-        }
+        above(0.0)
+            .up_to(limits::MAX_TRIAL_S)
+            .check("robot_trial_s", Some("s"), robot_trial_s)
+            .map_err(|error| AppError::field("/robot_trial_s", "out_of_range", error.to_string()))?;
         let resolved = kind::resolve(self, request).await?;
         let chosen = resolved.chosen().cloned();
         let clock = Arc::clone(&self.ports.clock);

@@ -1,33 +1,24 @@
 //! Reasons why constraints are invalid; every error carries the numbers and a remedy.
 
+use crate::range::OutOfRange;
+
 /// A constraint is invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConstraintError {
-    /// A description contains NaN or infinity.
-    #[error("{field} contains {value}: every number of a constraint must be finite")]
-    NotFinite {
-        /// Field of the description.
-        field: &'static str,
+    /// A number is not finite or out of range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// An annealing penalty that does not cool down, or at once.
+    #[error("cooling is {value}: give more than 0 and less than 1")]
+    Cooling {
         /// Value given.
         value: f64,
     },
-    /// A size or limit is not positive.
-    #[error("{field} is {value}: give a number above 0")]
-    NotPositive {
-        /// Field of the description.
-        field: &'static str,
-        /// Value given.
+    /// An adaptive penalty would undo each change by the opposite one.
+    #[error("relax and tighten are both {value}: give two different factors")]
+    EqualFactors {
+        /// Value of both.
         value: f64,
-    },
-    /// A number is out of range.
-    #[error("{field} is {value}: {expected}")]
-    OutOfRange {
-        /// Field of the description.
-        field: &'static str,
-        /// Value given.
-        value: f64,
-        /// Allowed range.
-        expected: &'static str,
     },
     /// The sides of a box cross.
     #[error("the box is empty: {axis} goes from {lower} m to {upper} m after dilatation")]

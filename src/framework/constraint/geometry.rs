@@ -12,6 +12,7 @@ use super::error::ConstraintError;
 use super::hull;
 use super::plane::Plane;
 use super::spec::{GeometrySpec, Side};
+use crate::range::{Range, above};
 use nalgebra::Vector3;
 
 /// Smallest violation reported, m (or rad); a point on the boundary violates by this much.
@@ -105,14 +106,11 @@ fn plane(normal: [f64; 3], offset_m: f64) -> Result<Plane, ConstraintError> {
 }
 
 pub(super) fn finite(field: &'static str, values: &[f64]) -> Result<(), ConstraintError> {
-    match values.iter().find(|v| !v.is_finite()) {
-        Some(&value) => Err(ConstraintError::NotFinite { field, value }),
-        None => Ok(()),
-    }
+    Ok(Range::default().check_each(field, None, values)?)
 }
 
 pub(super) fn positive(field: &'static str, value: f64) -> Result<(), ConstraintError> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(ConstraintError::NotPositive { field, value }) }
+    Ok(above(0.0).check(field, None, value)?)
 }
 
 #[cfg(test)]

@@ -24,6 +24,7 @@ use crate::method::per_goal::{
     Batch, Best, Incumbent, Optimizer, OptimizerError, Outcome, SearchSpace, StopReason, Tally,
 };
 use crate::random::RandomStream;
+use crate::range::Range;
 use std::sync::Arc;
 
 /// Maximum number of halvings of a step before its origin is used, and of bisections of a repair.
@@ -63,11 +64,7 @@ impl Rules {
             HandlingSpec::Rejecting { max_attempts }
             | HandlingSpec::Repairing { max_attempts }
             | HandlingSpec::Operators { max_attempts } => {
-                let value = f64::from(*max_attempts);
-                if (1..=1_000_000).contains(max_attempts) {
-                    return Ok(());
-                }
-                Err(ConstraintError::OutOfRange { field: "max_attempts", value, expected: "give 1 to 1000000" })
+                Ok(Range::from(1..=1_000_000).check("max_attempts", None, f64::from(*max_attempts))?)
             }
         }
     }

@@ -14,6 +14,7 @@
 
 use super::error::ConstraintError;
 use super::spec::{PenaltyForm, PenaltyKind, PenaltySpec};
+use crate::range::above;
 use serde::{Deserialize, Serialize};
 
 /// State of a penalty between generations.
@@ -79,42 +80,33 @@ pub(super) fn penalised(
 /// Checks the parameters.
 ///
 /// # Errors
-/// [`ConstraintError::OutOfRange`] with the field, the value and its range.
+/// [`ConstraintError`] with the parameter, its value and its range.
 pub(super) fn check(spec: &PenaltySpec) -> Result<(), ConstraintError> {
-    let above = |field, value: f64, least: f64, expected| {
-        if value.is_finite() && value > least {
-            Ok(())
-        } else {
-            Err(ConstraintError::OutOfRange { field, value, expected })
-        }
-    };
-    let positive = |field, value| above(field, value, 0.0, "give a finite number above 0");
+    let positive = |parameter, value| above(0.0).check(parameter, None, value);
     match spec.penalty {
-        PenaltyKind::Death { value } => positive("value", value),
-        PenaltyKind::Static { weight, exponent } => positive("weight", weight).and(positive("exponent", exponent)),
+        PenaltyKind::Death { value } => positive("value", value)?,
+        PenaltyKind::Static { weight, exponent } => positive("weight", weight).and(positive("exponent", exponent))?,
         PenaltyKind::Dynamic { weight, growth, exponent } => {
-            positive("weight", weight).and(positive("growth", growth)).and(positive("exponent", exponent))
+            positive("weight", weight).and(positive("growth", growth)).and(positive("exponent", exponent))?;
         }
         PenaltyKind::Adaptive { weight, window, relax, tighten } => {
             positive("weight", weight)?;
             positive("window", f64::from(window))?;
-            let factor = "give a factor above 1, different from the one in the opposite direction";
-            above("relax", relax, 1.0, factor)?;
-            above("tighten", tighten, 1.0, factor)?;
+            above(1.0).check("relax", None, relax)?;
+            above(1.0).check("tighten", None, tighten)?;
             if (relax - tighten).abs() < f64::EPSILON {
-                return Err(ConstraintError::OutOfRange { field: "tighten", value: tighten, expected: factor });
+                return Err(ConstraintError::EqualFactors { value: tighten });
             }
-            Ok(())
         }
         PenaltyKind::Annealing { temperature, cooling, frozen } => {
             positive("temperature", temperature)?;
             positive("frozen", frozen)?;
-            if cooling > 0.0 && cooling < 1.0 {
-                return Ok(());
+            if !(cooling > 0.0 && cooling < 1.0) {
+                return Err(ConstraintError::Cooling { value: cooling });
             }
-            Err(ConstraintError::OutOfRange { field: "cooling", value: cooling, expected: "give 0 to 1" })
         }
     }
+    Ok(())
 }
 
 #[cfg(test)]

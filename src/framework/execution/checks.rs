@@ -7,18 +7,11 @@ use crate::generalization::Goals;
 use crate::method::per_goal::OptimizerError;
 use crate::method::whole_run::Trial;
 use crate::method::{MethodKind, MethodSpec};
+use crate::range::Range;
 use crate::world::WorldProperties;
 
 /// Largest goal, features' unit: as large as a demonstration may be.
 const MOST_GOAL: f64 = 1e9;
-
-/// A number, the range it keeps to and the remedy.
-type Range = (&'static str, f64, std::ops::RangeInclusive<f64>, &'static str);
-
-fn first_outside(ranges: impl IntoIterator<Item = Range>) -> Result<(), ProblemError> {
-    let wrong = ranges.into_iter().find(|(_, value, range, _)| !range.contains(value));
-    wrong.map_or(Ok(()), |(field, value, _, expected)| Err(ProblemError::Value { field, value, expected }))
-}
 
 /// Whether the method's parameters make sense, and whether it can work in the world.
 pub(super) fn check_method(spec: &MethodSpec, world: &WorldProperties) -> Result<(), ProblemError> {
@@ -29,8 +22,7 @@ pub(super) fn check_method(spec: &MethodSpec, world: &WorldProperties) -> Result
 
 /// Whether every goal is a number that distances can be computed of.
 pub(super) fn check_goals(goals: &Goals) -> Result<(), ProblemError> {
-    let values = goals.rows().flatten().copied();
-    first_outside(values.map(|value| ("goals", value, -MOST_GOAL..=MOST_GOAL, "give values within -1e9 to 1e9")))
+    Ok(Range::from(-MOST_GOAL..=MOST_GOAL).check_each("goals", None, goals.values())?)
 }
 
 /// Whether every earlier trial is one of a robot with that many genes, seen through m features.
@@ -52,15 +44,10 @@ pub(super) fn check_earlier(earlier: &[Trial], genes: usize, features: usize) ->
 
 /// Whether limits, strategies and method fit together.
 pub(super) fn check_spec(spec: &ExecutionSpec, name: &'static str, method: &MethodKind) -> Result<(), ProblemError> {
-    let not_negative = |field, value: f64| {
-        if value.is_finite() && value >= 0.0 {
-            return Ok(());
-        }
-        Err(ProblemError::Value { field, value, expected: "give a finite number of at least 0" })
-    };
-    not_negative("target_discrepancy", spec.target_discrepancy.unwrap_or(0.0))?;
-    not_negative("tolerance", spec.tolerance.unwrap_or(0.0))?;
-    not_negative("rounding_noise", spec.rounding_noise)?;
+    let not_negative = Range::from(0.0..);
+    not_negative.check("target_discrepancy", None, spec.target_discrepancy.unwrap_or(0.0))?;
+    not_negative.check("tolerance", None, spec.tolerance.unwrap_or(0.0))?;
+    not_negative.check("rounding_noise", None, spec.rounding_noise)?;
     Rules::check(&spec.handling, spec.on_infeasible)?;
     let needs = |expected| Err(ProblemError::Method { method: name, expected });
     match method {
@@ -79,8 +66,7 @@ pub(super) fn check_spec(spec: &ExecutionSpec, name: &'static str, method: &Meth
         _ => {}
     }
     if spec.max_evaluations_per_goal == Some(0) {
-        let expected = "give at least 1";
-        return Err(ProblemError::Value { field: "max_evaluations_per_goal", value: 0.0, expected });
+        Range::from(1.0..).check("max_evaluations_per_goal", None, 0.0)?;
     }
     Ok(())
 }
@@ -132,6 +118,6 @@ mod tests {
         goals["goals"][3][1] = json!(1e300);
         problem.goals = serde_json::from_value(goals).unwrap();
         let error = Iet::new(&problem, 1).err().unwrap().to_string();
-        assert!(error.contains("within -1e9 to 1e9"), "{error}");
+        assert!(error.contains("goals is 1e300: give -1000000000 to 1000000000"), "{error}");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::constraint::ConstraintError;
 use crate::method::per_goal::OptimizerError;
+use crate::range::OutOfRange;
 use crate::robot::{ChainError, ModelError};
 use crate::world::WorldError;
 
@@ -49,16 +50,9 @@ pub enum ProblemError {
         /// Requirement of the method.
         expected: &'static str,
     },
-    /// A limit or threshold is out of range.
-    #[error("{field} is {value}: {expected}")]
-    Value {
-        /// Name of the field.
-        field: &'static str,
-        /// Value given.
-        value: f64,
-        /// Allowed range.
-        expected: &'static str,
-    },
+    /// A goal, a limit or a threshold is out of range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// The saved run has another version.
     #[error("the saved run has version {found}, but this program reads {expected}: run the job again")]
     Version {

@@ -8,6 +8,7 @@
 use super::{GeneralizeError, GeneralizeSpec, Generalized, Goals, Weighting};
 use crate::Feature;
 use crate::demonstration::{Demonstration, Stream};
+use crate::range::above;
 
 /// Largest number of goals.
 const MAX_GOALS: usize = 10_000;
@@ -18,9 +19,7 @@ const MAX_GOALS: usize = 10_000;
 /// [`GeneralizeError`] names the demonstration, stream or feature that does not fit.
 pub fn generalize(demonstrations: &[Demonstration], spec: &GeneralizeSpec) -> Result<Generalized, GeneralizeError> {
     let first = demonstrations.first().ok_or(GeneralizeError::NoDemonstration)?;
-    if !(spec.t_min_s.is_finite() && spec.t_min_s > 0.0) {
-        return Err(GeneralizeError::Period { t_min_s: spec.t_min_s });
-    }
+    above(0.0).check("t_min_s", Some("s"), spec.t_min_s)?;
     let features = selection(first, spec)?;
     let columns = demonstrations
         .iter()

@@ -87,7 +87,7 @@ fn impossible_periods_are_told_with_their_numbers() {
     let error = generalize(&pair(), &GeneralizeSpec::new(3.5)).unwrap_err();
     assert_eq!(error, GeneralizeError::NoGoal { t_min_s: 3.5, mean_duration_s: 3.0 });
     for t_min_s in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(generalize(&pair(), &GeneralizeSpec::new(t_min_s)), Err(GeneralizeError::Period { .. })));
+        assert!(matches!(generalize(&pair(), &GeneralizeSpec::new(t_min_s)), Err(GeneralizeError::Period(_))));
     }
     assert!(matches!(generalize(&pair(), &GeneralizeSpec::new(1e-9)), Err(GeneralizeError::TooManyGoals { .. })));
     assert_eq!(generalize(&[], &GeneralizeSpec::new(1.0)), Err(GeneralizeError::NoDemonstration));

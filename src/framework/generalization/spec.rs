@@ -1,6 +1,7 @@
 //! Input, output and errors of a generalization.
 
 use super::Goals;
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -67,11 +68,8 @@ pub enum GeneralizeError {
     #[error("there are no demonstrations to generalize: give at least one")]
     NoDemonstration,
     /// T_min is not a positive finite time.
-    #[error("t_min_s is {t_min_s:?} s: give a positive duration per goal")]
-    Period {
-        /// Requested T_min, seconds.
-        t_min_s: f64,
-    },
+    #[error(transparent)]
+    Period(#[from] OutOfRange),
     /// T_min is longer than the demonstrations.
     #[error("t_min_s {t_min_s:?} s is longer than the mean duration of {mean_duration_s} s: give at most that")]
     NoGoal {

@@ -1,7 +1,7 @@
 //! The contract between a method and the framework: what it is, what it needs, how its parameters are checked.
 
 use super::parameters::Parameters;
-use super::range::OutOfRange;
+use crate::range::OutOfRange;
 use crate::world::WorldProperties;
 use serde::Serialize;
 use utoipa::ToSchema;

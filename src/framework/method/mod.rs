@@ -112,7 +112,6 @@ mod kind;
 mod notation;
 mod parameters;
 pub mod per_goal;
-mod range;
 pub mod whole_run;
 
 pub use auto::AutoSpec;
@@ -122,4 +121,3 @@ pub use contract::{Effects, Knowledge, Method, Needs, Profile, Scope, SimulatorU
 pub use kind::MethodKind;
 pub use notation::{MethodChoice, method_or_name};
 pub use parameters::{Choice, Parameter, ParameterValue, Parameters, Values};
-pub use range::{OutOfRange, Range};

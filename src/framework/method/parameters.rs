@@ -3,7 +3,7 @@
 //! [`parameters!`] turns one declaration into the struct that users write, its defaults, the check of its ranges and the
 //! rows of the catalogue, so that these cannot disagree.
 
-use super::range::{OutOfRange, Range};
+use crate::range::{OutOfRange, Range};
 use serde::Serialize;
 use serde_json::Value;
 use utoipa::ToSchema;
@@ -175,7 +175,7 @@ fn json<T: Serialize>(value: &T) -> Value {
 /// }
 /// ```
 ///
-/// A range may be `3..=100`, `0.0..` or [`above`](super::range::above)`(0.0)`; without one, any finite number does.
+/// A range may be `3..=100`, `0.0..` or [`above`](crate::range::above)`(0.0)`; without one, any finite number does.
 macro_rules! parameters {
     (
         $(#[doc = $about:literal])+
@@ -218,7 +218,7 @@ macro_rules! parameters {
                 ),+]
             }
 
-            fn check_ranges(&self) -> Result<(), $crate::method::range::OutOfRange> {
+            fn check_ranges(&self) -> Result<(), $crate::range::OutOfRange> {
                 use $crate::method::parameters::ParameterValue as _;
                 $(
                     self.$name.check(
@@ -232,7 +232,7 @@ macro_rules! parameters {
         }
 
         impl $crate::method::parameters::ParameterValue for $spec {
-            fn values(_: $crate::method::range::Range) -> $crate::method::parameters::Values {
+            fn values(_: $crate::range::Range) -> $crate::method::parameters::Values {
                 let parameters = <Self as $crate::method::parameters::Parameters>::parameters();
                 $crate::method::parameters::Values::Group { parameters }
             }
@@ -241,8 +241,8 @@ macro_rules! parameters {
                 &self,
                 _: &'static str,
                 _: Option<&'static str>,
-                _: &$crate::method::range::Range,
-            ) -> Result<(), $crate::method::range::OutOfRange> {
+                _: &$crate::range::Range,
+            ) -> Result<(), $crate::range::OutOfRange> {
                 $crate::method::parameters::Parameters::check_ranges(self)
             }
         }
@@ -262,10 +262,10 @@ macro_rules! unit {
 /// The range of a declaration: that of all finite numbers where it has none.
 macro_rules! range {
     () => {
-        $crate::method::range::Range::default()
+        $crate::range::Range::default()
     };
     ($range:expr) => {
-        $crate::method::range::Range::from($range)
+        $crate::range::Range::from($range)
     };
 }
 

@@ -81,7 +81,7 @@ pub struct Incomparable {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RecognizeError {
     /// The threshold is negative or not a number.
-    #[error("the threshold is {threshold}: give a relative discrepancy of 0 or more")]
+    #[error("threshold is {threshold}: give at least 0")]
     Threshold {
         /// Requested threshold.
         threshold: f64,

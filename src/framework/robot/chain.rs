@@ -8,6 +8,7 @@ use super::check::MAX_VALUE;
 use super::error::ChainError;
 use super::model::{JointKind, RobotModel};
 use super::spec::RobotSpec;
+use crate::range::{Range, above};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -88,11 +89,7 @@ impl Chain {
         for &joint in movable.iter().filter(|j| !free.contains(j)) {
             held.insert(joint, held_value(model, spec, joint)?);
         }
-        if let Some(&value) = spec.tool_offset_m.iter().find(|v| !v.is_finite() || v.abs() > MAX_VALUE) {
-            let joint = model.links()[tip].clone();
-            let expected = "give metres within +/-1e6";
-            return Err(ChainError::Value { role: "tool_offset_m", joint, value, expected });
-        }
+        Range::from(-MAX_VALUE..=MAX_VALUE).check_each("tool_offset_m", Some("m"), &spec.tool_offset_m)?;
         let home = home(spec, &genes)?;
         let mut chain = Self {
             base_link: model.links()[base].clone(),
@@ -283,10 +280,8 @@ fn free_joints(model: &RobotModel, spec: &RobotSpec, movable: &[usize]) -> Resul
 fn position_limits(model: &RobotModel, spec: &RobotSpec, joint: usize) -> Result<Option<[f64; 2]>, ChainError> {
     let joint = &model.joints()[joint];
     if let Some(&[lower, upper]) = spec.limits.get(&joint.name) {
-        if let Some(value) = [lower, upper].into_iter().find(|v| !v.is_finite() || v.abs() > MAX_VALUE) {
-            let expected = "give limits within +/-1e6";
-            return Err(ChainError::Value { role: "limits", joint: joint.name.clone(), value, expected });
-        }
+        let wrong = |number| ChainError::Joint { joint: joint.name.clone(), number };
+        Range::from(-MAX_VALUE..=MAX_VALUE).check_each("limit", Some("rad or m"), &[lower, upper]).map_err(wrong)?;
         if lower > upper {
             return Err(ChainError::LimitOrder { joint: joint.name.clone(), lower, upper });
         }
@@ -302,10 +297,8 @@ fn held_value(model: &RobotModel, spec: &RobotSpec, joint: usize) -> Result<f64,
     let Some(&value) = spec.fixed.get(name) else {
         return Ok(limits.map_or(0.0, |[lower, upper]| 0.0_f64.clamp(lower, upper)));
     };
-    if !value.is_finite() || value.abs() > MAX_VALUE {
-        let expected = "give rad or m within +/-1e6";
-        return Err(ChainError::Value { role: "fixed", joint: name.clone(), value, expected });
-    }
+    let wrong = |number| ChainError::Joint { joint: name.clone(), number };
+    Range::from(-MAX_VALUE..=MAX_VALUE).check("fixed", Some("rad or m"), value).map_err(wrong)?;
     match limits {
         Some([lower, upper]) if value < lower || value > upper => {
             Err(ChainError::FixedOutside { joint: name.clone(), value, lower, upper })
@@ -351,9 +344,9 @@ fn gene(model: &RobotModel, spec: &RobotSpec, path: &[usize], index: usize) -> R
         return Err(ChainError::LimitOrder { joint: joint.name.clone(), lower, upper });
     }
     let acceleration = spec.acceleration.get(&joint.name).copied();
-    if let Some(value) = acceleration.filter(|a| !a.is_finite() || *a <= 0.0) {
-        let expected = "give a positive limit";
-        return Err(ChainError::Value { role: "acceleration", joint: joint.name.clone(), value, expected });
+    if let Some(value) = acceleration {
+        let wrong = |number| ChainError::Joint { joint: joint.name.clone(), number };
+        above(0.0).check("acceleration", Some("rad/s^2 or m/s^2"), value).map_err(wrong)?;
     }
     Ok(Gene { name: joint.name.clone(), kind: joint.kind, lower, upper, velocity, acceleration })
 }

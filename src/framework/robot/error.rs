@@ -1,6 +1,8 @@
 //! Reasons why a URDF is not a robot, or a robot description not a chain. Each error names the joint or link, the value
 //! and the remedy.
 
+use crate::range::OutOfRange;
+
 /// The URDF cannot be used as a robot model.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelError {
@@ -235,16 +237,15 @@ pub enum ChainError {
         joint: String,
     },
     /// A number of the description is not finite or out of range.
-    #[error("{role} of joint {joint:?} is {value:?}: {expected}")]
-    Value {
-        /// Field of the description.
-        role: &'static str,
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// A number of the description of one joint is not finite or out of range.
+    #[error("joint {joint:?}: {number}")]
+    Joint {
         /// Name of the joint.
         joint: String,
-        /// Value given, rad or m (rad/s^2 or m/s^2 for an acceleration).
-        value: f64,
-        /// Expected range.
-        expected: &'static str,
+        /// The field of the description, its value and its range.
+        number: OutOfRange,
     },
     /// A fixed value is outside the joint's limits.
     #[error("fixed value {value} of joint {joint:?} is outside its limits {lower} to {upper}")]

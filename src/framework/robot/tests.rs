@@ -215,7 +215,7 @@ fn refuses_more_links_than_allowed() {
 )]
 #[case::far_limits(
     RobotSpec { limits: BTreeMap::from([("slant".into(), [-1e308, 1e308])]), ..RobotSpec::default() },
-    "limits of joint \"slant\" is -1e308"
+    "joint \"slant\": limit is -1e308"
 )]
 #[case::home(
     RobotSpec { home: BTreeMap::from([("slant".into(), 9.0)]), ..RobotSpec::default() },
@@ -225,10 +225,13 @@ fn refuses_more_links_than_allowed() {
     RobotSpec { home: BTreeMap::from([("bolt".into(), 0.0)]), ..RobotSpec::default() },
     "home names joint \"bolt\""
 )]
-#[case::far_tool(RobotSpec { tool_offset_m: [0.0, 1e308, 0.0], ..RobotSpec::default() }, "is 1e308: give metres")]
+#[case::far_tool(
+    RobotSpec { tool_offset_m: [0.0, 1e308, 0.0], ..RobotSpec::default() },
+    "tool_offset_m is 1e308: give -1000000 to 1000000 m"
+)]
 #[case::acceleration(
     RobotSpec { acceleration: BTreeMap::from([("slant".into(), 0.0)]), ..RobotSpec::default() },
-    "acceleration of joint \"slant\" is 0"
+    "joint \"slant\": acceleration is 0: give more than 0"
 )]
 fn refuses_chains(#[case] spec: RobotSpec, #[case] told: &str) {
     let model = RobotModel::from_urdf(&all_kinds_urdf()).unwrap();

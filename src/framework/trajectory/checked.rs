@@ -1,5 +1,6 @@
 //! A trajectory that has passed all checks, and how close it comes to each limit.
 
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -121,14 +122,13 @@ pub enum TrajectoryError {
         velocity: f64,
     },
     /// A planning parameter is out of range.
-    #[error("{field} is {value}: {expected}")]
-    Value {
-        /// Name of the parameter.
-        field: &'static str,
-        /// Value given.
-        value: f64,
-        /// Expected range.
-        expected: &'static str,
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// A trajectory would be too long for its sample time.
+    #[error("sample_s is {sample_s}: the trajectory would have more than a million samples; give a longer sample time")]
+    TooManySamples {
+        /// Sample time given, s.
+        sample_s: f64,
     },
 }
 

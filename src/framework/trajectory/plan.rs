@@ -6,6 +6,7 @@
 //! respects every joint's limits.
 
 use super::checked::{CheckedTrajectory, JointLimits, Point, TrajectoryError};
+use crate::range::{OutOfRange, Range};
 use crate::robot::Chain;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -65,8 +66,7 @@ pub fn plan(
         if least_s > 0.0 {
             let steps = (least_s / spec.sample_s).ceil().max(1.0);
             if steps + points.len() as f64 > MAX_SAMPLES {
-                let expected = "the trajectory would have more than a million samples; give a longer sample time";
-                return Err(TrajectoryError::Value { field: "sample_s", value: spec.sample_s, expected });
+                return Err(TrajectoryError::TooManySamples { sample_s: spec.sample_s });
             }
             for step in (1_u32..).map(f64::from).take_while(|&step| step < steps) {
                 points.push(sample(time_s, least_s, step / steps, from, to));
@@ -157,18 +157,10 @@ pub fn limits(chain: &Chain) -> (Vec<JointLimits>, Vec<String>) {
     (limits, notes)
 }
 
-fn check_spec(spec: &PlanSpec) -> Result<(), TrajectoryError> {
-    let value = |field, value, expected| Err(TrajectoryError::Value { field, value, expected });
-    if !(1e-4..=10.0).contains(&spec.sample_s) {
-        return value("sample_s", spec.sample_s, "give 0.0001 to 10 s");
-    }
-    if !(1e-3..=1.0).contains(&spec.speed) {
-        return value("speed", spec.speed, "give a share of 0.001 to 1");
-    }
-    if !(0.0..=60.0).contains(&spec.dwell_s) {
-        return value("dwell_s", spec.dwell_s, "give 0 to 60 s");
-    }
-    Ok(())
+fn check_spec(spec: &PlanSpec) -> Result<(), OutOfRange> {
+    Range::from(1e-4..=10.0).check("sample_s", Some("s"), spec.sample_s)?;
+    Range::from(1e-3..=1.0).check("speed", None, spec.speed)?;
+    Range::from(0.0..=60.0).check("dwell_s", Some("s"), spec.dwell_s)
 }
 
 fn check_shape(chain: &Chain, start: &[f64], waypoints: &[Vec<f64>]) -> Result<(), TrajectoryError> {

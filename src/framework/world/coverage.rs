@@ -1,6 +1,7 @@
 //! The coverage world (the paper's paint): the cells of a grid that the tool has come close to.
 
 use super::{CoverageSpec, Surface, SurfaceView, World, WorldError};
+use crate::range::{Range, above};
 use crate::robot::{Chain, tool_position};
 use crate::{CellSet, Feature};
 use nalgebra::Vector3;
@@ -50,9 +51,7 @@ pub(super) fn features(spec: &CoverageSpec) -> Vec<Feature> {
 /// # Errors
 /// [`WorldError`] for a grid that is empty, too large, degenerate or implausible, and for a tool without a radius.
 pub(super) fn check(spec: &CoverageSpec) -> Result<(), WorldError> {
-    if !(spec.radius_m > 0.0 && spec.radius_m <= MAX_LENGTH_M) {
-        return Err(WorldError::Radius { found: spec.radius_m, limit: MAX_LENGTH_M });
-    }
+    above(0.0).up_to(MAX_LENGTH_M).check("radius_m", Some("m"), spec.radius_m)?;
     let cells = u64::from(spec.columns) * u64::from(spec.rows);
     let limit = match spec.observes {
         SurfaceView::Percent => MAX_CELLS,
@@ -64,9 +63,7 @@ pub(super) fn check(spec: &CoverageSpec) -> Result<(), WorldError> {
     for (field, vector) in
         [("origin_m", spec.origin_m), ("column_step_m", spec.column_step_m), ("row_step_m", spec.row_step_m)]
     {
-        if let Some(&value) = vector.iter().find(|v| !v.is_finite() || v.abs() > MAX_LENGTH_M) {
-            return Err(WorldError::Length { field, value, limit: MAX_LENGTH_M });
-        }
+        Range::from(-MAX_LENGTH_M..=MAX_LENGTH_M).check_each(field, Some("m"), &vector)?;
     }
     for (field, step, count) in
         [("column_step_m", spec.column_step_m, spec.columns), ("row_step_m", spec.row_step_m, spec.rows)]

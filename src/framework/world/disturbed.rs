@@ -6,6 +6,7 @@
 
 use super::{World, WorldError, WorldSpec, build};
 use crate::random::RandomStream;
+use crate::range::{OutOfRange, Range};
 use crate::robot::Chain;
 use crate::trajectory::{JointLimits, late, limits};
 use crate::{CellSet, Feature};
@@ -53,18 +54,15 @@ impl DisturbanceSpec {
         self.link_share > 0.0 || self.base_shift_m > 0.0
     }
 
-    fn check(&self) -> Result<(), WorldError> {
-        let ranges = [
-            ("link_share", self.link_share, 0.0..=0.9, "0 to 0.9"),
-            ("base_shift_m", self.base_shift_m, 0.0..=1e3, "0 to 1000 m"),
-            ("sensor_noise", self.sensor_noise, 0.0..=1e6, "0 to 1e6, in the features' unit"),
-            ("joint_noise_deg", self.joint_noise_deg, 0.0..=360.0, "0 to 360 degrees"),
-            ("lost_share", self.lost_share, 0.0..=0.99, "0 to 0.99"),
-            ("latency_s", self.latency_s, 0.0..=3600.0, "0 to 3600 s"),
-            ("settle_s", self.settle_s, 0.0..=3600.0, "0 to 3600 s"),
-        ];
-        let wrong = ranges.into_iter().find(|(_, value, range, _)| !range.contains(value));
-        wrong.map_or(Ok(()), |(field, value, _, expected)| Err(WorldError::Disturbance { field, value, expected }))
+    fn check(&self) -> Result<(), OutOfRange> {
+        let up_to = |most: f64| Range::from(0.0..=most);
+        up_to(0.9).check("reality.link_share", None, self.link_share)?;
+        up_to(1e3).check("reality.base_shift_m", Some("m"), self.base_shift_m)?;
+        up_to(1e6).check("reality.sensor_noise", None, self.sensor_noise)?;
+        up_to(360.0).check("reality.joint_noise_deg", Some("degrees"), self.joint_noise_deg)?;
+        up_to(0.99).check("reality.lost_share", None, self.lost_share)?;
+        up_to(3600.0).check("reality.latency_s", Some("s"), self.latency_s)?;
+        up_to(3600.0).check("reality.settle_s", Some("s"), self.settle_s)
     }
 }
 
@@ -239,7 +237,7 @@ mod tests {
     }
 
     #[rstest]
-    #[case(DisturbanceSpec { lost_share: 1.0, ..DisturbanceSpec::default() }, "lost_share is 1.0")]
+    #[case(DisturbanceSpec { lost_share: 1.0, ..DisturbanceSpec::default() }, "reality.lost_share is 1: give 0 to 0.99")]
     #[case(DisturbanceSpec { latency_s: -0.1, ..DisturbanceSpec::default() }, "latency_s is -0.1")]
     #[case(DisturbanceSpec { sensor_noise: f64::NAN, ..DisturbanceSpec::default() }, "sensor_noise is NaN")]
     fn refuses_numbers_out_of_range(#[case] disturbance: DisturbanceSpec, #[case] told: &str) {

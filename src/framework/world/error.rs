@@ -1,5 +1,7 @@
 //! Reasons why a description is not a valid world.
 
+use crate::range::OutOfRange;
+
 /// A world cannot be built; each variant carries the value and what is allowed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WorldError {
@@ -21,24 +23,10 @@ pub enum WorldError {
         /// Maximum number of cells.
         limit: u64,
     },
-    /// The radius of the tool is not positive or too large.
-    #[error("radius_m is {found:?}: give a radius above 0 and up to {limit} m")]
-    Radius {
-        /// Radius given, m.
-        found: f64,
-        /// Largest allowed radius, m.
-        limit: f64,
-    },
-    /// A coordinate is not finite or implausibly large.
-    #[error("{field} contains {value:?}: give metres within +/-{limit}")]
-    Length {
-        /// Name of the field.
-        field: &'static str,
-        /// Value of the objective.
-        value: f64,
-        /// Largest allowed magnitude, m.
-        limit: f64,
-    },
+    /// A length, a share or a duration is out of range; those of a [`DisturbanceSpec`](super::DisturbanceSpec) carry the
+    /// name `reality` that they have in a problem.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// All cells of a row or column are at the same place.
     #[error("{field} is zero for {count} cells: they would coincide")]
     ZeroStep {
@@ -46,15 +34,5 @@ pub enum WorldError {
         field: &'static str,
         /// Number of cells along it.
         count: u32,
-    },
-    /// A number of a [`DisturbanceSpec`](super::DisturbanceSpec) (`reality` in a problem) is out of range.
-    #[error("reality.{field} is {value:?}: give {expected}")]
-    Disturbance {
-        /// Name of the field.
-        field: &'static str,
-        /// Value given.
-        value: f64,
-        /// Allowed range.
-        expected: &'static str,
     },
 }

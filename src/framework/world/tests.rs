@@ -71,13 +71,13 @@ proptest! {
 
 #[rstest]
 #[case(|w: &mut CoverageSpec| w.rows = 0, "0 cells")]
-#[case(|w: &mut CoverageSpec| w.radius_m = -1.0, "radius_m is -1")]
+#[case(|w: &mut CoverageSpec| w.radius_m = -1.0, "radius_m is -1: give more than 0 and at most 10000 m")]
 #[case(|w: &mut CoverageSpec| w.radius_m = f64::NAN, "radius_m is NaN")]
 #[case(|w: &mut CoverageSpec| w.columns = u32::MAX, "4294967295 columns")]
-#[case(|w: &mut CoverageSpec| w.origin_m[1] = f64::INFINITY, "origin_m contains inf")]
+#[case(|w: &mut CoverageSpec| w.origin_m[1] = f64::INFINITY, "origin_m is inf")]
 #[case(|w: &mut CoverageSpec| (w.columns, w.rows) = (65535, 65535), "4294836225 cells")]
 #[case(|w: &mut CoverageSpec| w.radius_m = 1e308, "radius_m is 1e308")]
-#[case(|w: &mut CoverageSpec| w.column_step_m[0] = -1e308, "column_step_m contains -1e308")]
+#[case(|w: &mut CoverageSpec| w.column_step_m[0] = -1e308, "column_step_m is -1e308: give -10000 to 10000 m")]
 #[case(|w: &mut CoverageSpec| w.row_step_m = [0.0; 3], "row_step_m is zero for 4 cells")]
 fn refuses_surfaces(#[case] spoil: fn(&mut CoverageSpec), #[case] told: &str) {
     let mut spec = wall();

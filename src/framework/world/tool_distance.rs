@@ -3,6 +3,7 @@
 
 use super::{ToolDistanceSpec, World, WorldError, tool_position};
 use crate::Feature;
+use crate::range::Range;
 use crate::robot::{Chain, tool_position as position};
 use nalgebra::Vector3;
 
@@ -24,9 +25,7 @@ pub(super) struct ToolDistance {
 /// [`WorldError`] for a unit that is not a length and a point that is not finite or implausibly far.
 pub(super) fn features(spec: &ToolDistanceSpec) -> Result<[Feature; 1], WorldError> {
     tool_position::scale(&spec.unit)?;
-    if let Some(&value) = spec.point_m.iter().find(|v| !v.is_finite() || v.abs() > MAX_LENGTH_M) {
-        return Err(WorldError::Length { field: "point_m", value, limit: MAX_LENGTH_M });
-    }
+    Range::from(-MAX_LENGTH_M..=MAX_LENGTH_M).check_each("point_m", Some("m"), &spec.point_m)?;
     Ok([Feature::new("distance", spec.unit.as_str())])
 }
 
@@ -109,8 +108,8 @@ mod tests {
     }
 
     #[rstest]
-    #[case("mm", "inf", "point_m contains inf")]
-    #[case("mm", "1e9", "point_m contains 1000000000")]
+    #[case("mm", "inf", "point_m is inf: give -10000 to 10000 m")]
+    #[case("mm", "1e9", "point_m is 1000000000")]
     #[case("cm", "0.5", "unit is \"cm\"")]
     fn refuses(#[case] unit: &str, #[case] x: &str, #[case] told: &str) {
         let spec = world(&format!("kind = \"tool_distance\"\npoint_m = [{x}, 0.0, 0.0]\nunit = \"{unit}\""));

@@ -2,7 +2,8 @@
 
 use super::schemas::Schemas;
 use crate::app::model::limits;
-use crate::framework::method::{Parameter, Range, Values, catalogue};
+use crate::framework::method::{Parameter, Values, catalogue};
+use crate::framework::range::Range;
 use serde_json::{Map, Value, json};
 use std::ops::RangeInclusive;
 

@@ -12,6 +12,7 @@ use crate::app::ports::Usage;
 use crate::app::{App, chain_text, check_name, compute};
 use crate::framework::execution::{Iet, Problem};
 use crate::framework::generalization::Goals;
+use crate::framework::range::Range;
 
 /// Checks and completes a request.
 ///
@@ -99,9 +100,10 @@ fn bounds(request: &ExecutionRequest) -> Vec<FieldError> {
     if let Some(seed) = request.seed.filter(|seed| !limits::FIRST_SEED.contains(seed)) {
         wrong("/seed", format!("seed is {seed}: give {}", limits::in_words(&limits::FIRST_SEED)));
     }
-    let slowest = limits::MIN_EVALUATIONS_PER_S;
-    if let Some(rate) = request.max_evaluations_per_s.filter(|rate| !(rate.is_finite() && *rate >= slowest)) {
-        wrong("/max_evaluations_per_s", format!("max_evaluations_per_s is {rate}: give {slowest} or more"));
+    let pace = Range::from(limits::MIN_EVALUATIONS_PER_S..);
+    let rate = request.max_evaluations_per_s.map(|rate| pace.check("max_evaluations_per_s", None, rate));
+    if let Some(Err(error)) = rate {
+        wrong("/max_evaluations_per_s", error.to_string());
     }
     if let Some(error) = request.name.as_deref().and_then(|name| check_name("/name", name).err()) {
         errors.extend(error.details);

@@ -7,6 +7,7 @@ use crate::app::model::{
 };
 use crate::app::ports::Usage;
 use crate::app::{App, check_name};
+use crate::framework::range::above;
 use std::collections::BTreeSet;
 
 /// Checks a request.
@@ -16,9 +17,8 @@ use std::collections::BTreeSet;
 pub(super) async fn resolve(app: &App, request: GeneralizationRequest) -> Result<Resolved, AppError> {
     check_name("/name", &request.name)?;
     let mut errors = Vec::new();
-    if !(request.t_min_s.is_finite() && request.t_min_s > 0.0) {
-        let detail = format!("t_min_s is {}: give a time above 0", request.t_min_s);
-        errors.push(FieldError::new("/t_min_s", "out_of_range", detail));
+    if let Err(error) = above(0.0).check("t_min_s", Some("s"), request.t_min_s) {
+        errors.push(FieldError::new("/t_min_s", "out_of_range", error.to_string()));
     }
     let most = *limits::DEMONSTRATIONS.end() as usize;
     if request.demonstrations.is_empty() || request.demonstrations.len() > most {

@@ -20,8 +20,8 @@ use super::{
 use crate::infinite_as_null;
 use crate::method::contract::{Method, Profile};
 use crate::method::parameters::parameters;
-use crate::method::range::above;
 use crate::random::RandomStream;
+use crate::range::above;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

@@ -1,7 +1,7 @@
 //! Why a search cannot begin or go on.
 
 use crate::method::parameters::Parameters;
-use crate::method::range::OutOfRange;
+use crate::range::OutOfRange;
 
 /// Why a method cannot be run.
 #[derive(Debug, thiserror::Error)]

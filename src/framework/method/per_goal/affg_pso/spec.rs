@@ -3,7 +3,7 @@
 use crate::method::contract::{Method, Profile};
 use crate::method::parameters::parameters;
 use crate::method::per_goal::swarm::SwarmSpec;
-use crate::method::range::above;
+use crate::range::above;
 
 parameters! {
     /// Parameters of AFFG-PSO, a particle swarm with adaptive fuzzy fitness granulation.

@@ -2,7 +2,7 @@
 
 use crate::method::parameters::{Choice, parameters};
 use crate::method::per_goal::BoundsRule;
-use crate::method::range::above;
+use crate::range::above;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 

@@ -5,8 +5,8 @@
 //! best few. The result is the same, to the bit, as without this shortcut.
 
 use super::belief::{Aim, Belief};
-use crate::method::whole_run::FeatureMap;
 use crate::distance::{distance, squared_distance};
+use crate::method::whole_run::FeatureMap;
 use crate::method::whole_run::refine::{Local, refine};
 use crate::method::whole_run::space::Space;
 use crate::random::RandomStream;

@@ -2,7 +2,7 @@
 
 use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
 use crate::method::parameters::{Parameters, parameters};
-use crate::method::range::{OutOfRange, Range};
+use crate::range::{OutOfRange, Range};
 use crate::world::WorldProperties;
 
 /// Most times a pose is compared with a cell when robots are drawn: a second of work.

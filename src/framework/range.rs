@@ -1,4 +1,5 @@
-//! Limits of a number, as a check, as words and as data.
+//! Limits of a number, as a check, as words and as data: every number that a user sets is checked here, so that all
+//! refusals read alike.
 
 use serde::Serialize;
 use std::fmt;
@@ -21,9 +22,9 @@ pub struct Range {
 
 /// A number outside its range.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("{parameter} is {value}: give {range}{}", unit.map(|unit| format!(" {unit}")).unwrap_or_default())]
+#[error("{parameter} is {}: give {range}{}", plain(*value), unit.map(|unit| format!(" {unit}")).unwrap_or_default())]
 pub struct OutOfRange {
-    /// Name of the parameter.
+    /// Name of the parameter, as users write it.
     pub parameter: &'static str,
     /// The value given.
     pub value: f64,
@@ -70,6 +71,17 @@ impl Range {
         }
         Err(OutOfRange { parameter, value, range: *self, unit })
     }
+
+    /// # Errors
+    /// [`OutOfRange`] with the first of `values` that is outside.
+    pub fn check_each(
+        &self,
+        parameter: &'static str,
+        unit: Option<&'static str>,
+        values: &[f64],
+    ) -> Result<(), OutOfRange> {
+        values.iter().try_for_each(|&value| self.check(parameter, unit, value))
+    }
 }
 
 impl From<RangeInclusive<i32>> for Range {
@@ -92,7 +104,9 @@ impl From<RangeFrom<f64>> for Range {
 
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.minimum, self.exclusive_minimum, self.maximum) {
+        let [minimum, exclusive, maximum] =
+            [self.minimum, self.exclusive_minimum, self.maximum].map(|limit| limit.map(plain));
+        match (minimum, exclusive, maximum) {
             (_, Some(least), Some(most)) => write!(f, "more than {least} and at most {most}"),
             (_, Some(least), None) => write!(f, "more than {least}"),
             (Some(least), None, Some(most)) => write!(f, "{least} to {most}"),
@@ -100,5 +114,35 @@ impl fmt::Display for Range {
             (None, None, Some(most)) => write!(f, "at most {most}"),
             (None, None, None) => f.write_str("a finite number"),
         }
+    }
+}
+
+/// The number without a trailing `.0`, and with an exponent rather than a row of zeros.
+fn plain(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Range, above};
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(Range::from(3..=100), 2.0, Some("size is 2: give 3 to 100 m"))]
+    #[case(Range::from(3..=100), 3.0, None)]
+    #[case(Range::from(0.0..), f64::NAN, Some("size is NaN: give at least 0 m"))]
+    #[case(above(0.0), 0.0, Some("size is 0: give more than 0 m"))]
+    #[case(above(0.0).up_to(0.5), 1e300, Some("size is 1e300: give more than 0 and at most 0.5 m"))]
+    fn refusals_name_the_number_and_the_range(#[case] range: Range, #[case] value: f64, #[case] told: Option<&str>) {
+        let refusal = range.check("size", Some("m"), value).err().map(|error| error.to_string());
+        assert_eq!(refusal.as_deref(), told);
+    }
+
+    #[test]
+    fn the_first_of_several_numbers_outside_is_named() {
+        assert_eq!(Range::default().check_each("offset", None, &[-1e300, 0.0]), Ok(()));
+        let refusal = Range::default().check_each("offset", None, &[0.0, f64::INFINITY, f64::NAN]).unwrap_err();
+        assert_eq!(refusal.to_string(), "offset is inf: give a finite number");
     }
 }
