@@ -1,5 +1,5 @@
-//! The Euclidean distance, for all who need it: summed from the first value to the last, so that every use gives the same
-//! bits.
+//! The Euclidean distance, for all who need it: summed from the first value to the last, so that every use gives the
+//! same bits.
 
 /// Distance of two rows of equal length, in the unit of their values.
 #[must_use]

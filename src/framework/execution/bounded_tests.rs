@@ -1,4 +1,4 @@
-//! Whole-run methods under constraints: nothing forbidden is executed, and unreached goals are reported.
+//! Methods that plan the whole run, under constraints: they execute no forbidden pose and report goals out of reach.
 
 use super::*;
 use crate::method::per_goal::{Batch, Provenance, StopReason};

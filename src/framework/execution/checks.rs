@@ -1,4 +1,4 @@
-//! Numbers a problem must keep to: what lies outside is refused before anything runs, with the number and the remedy.
+//! Checks of the numbers of a problem before anything runs; a refusal names the number and the remedy.
 
 use super::error::ProblemError;
 use super::spec::ExecutionSpec;
@@ -13,19 +13,19 @@ use crate::world::WorldProperties;
 /// Largest goal, features' unit: as large as a demonstration may be.
 const MOST_GOAL: f64 = 1e9;
 
-/// Whether the method's parameters make sense, and whether it can work in the world.
+/// Checks that the parameters of the method are within their ranges, and that it can work in the world.
 pub(super) fn check_method(spec: &MethodSpec, world: &WorldProperties) -> Result<(), ProblemError> {
     let method = spec.name();
     spec.check(world).map_err(|number| OptimizerError::Parameter { method, number })?;
     spec.fits(world).map_err(|expected| ProblemError::Method { method, expected })
 }
 
-/// Whether every goal is a number that distances can be computed of.
+/// Checks that distances from every goal can be computed.
 pub(super) fn check_goals(goals: &Goals) -> Result<(), ProblemError> {
     Ok(Range::from(-MOST_GOAL..=MOST_GOAL).check_each("goals", None, goals.values())?)
 }
 
-/// Whether every earlier trial is one of a robot with that many genes, seen through m features.
+/// Checks that every earlier trial has finite values for `genes` joints and, if it was observed, for m `features`.
 pub(super) fn check_earlier(earlier: &[Trial], genes: usize, features: usize) -> Result<(), ProblemError> {
     for (trial, Trial { joints, observation, .. }) in earlier.iter().enumerate() {
         let wrong = |what, found, expected| Err(ProblemError::Earlier { trial, what, found, expected });
@@ -42,7 +42,7 @@ pub(super) fn check_earlier(earlier: &[Trial], genes: usize, features: usize) ->
     Ok(())
 }
 
-/// Whether limits, strategies and method fit together.
+/// Checks that limits, strategies and method fit together.
 pub(super) fn check_spec(spec: &ExecutionSpec, name: &'static str, method: &MethodKind) -> Result<(), ProblemError> {
     let not_negative = Range::from(0.0..);
     not_negative.check("target_discrepancy", None, spec.target_discrepancy.unwrap_or(0.0))?;

@@ -53,6 +53,6 @@ fn a_sensor_that_shows_nothing_ends_the_run() {
             iet.tell(&observations).err()
         });
         let error = error.unwrap().to_string();
-        assert!(error.contains("trials was executed and seen"), "{method}: {error}");
+        assert!(error.contains("trials was executed and observed"), "{method}: {error}");
     }
 }

@@ -81,13 +81,15 @@ pub enum ProblemError {
         trial: usize,
         /// Property that does not match.
         what: &'static str,
-        /// Number in the saved state.
+        /// Number in the trial.
         found: usize,
         /// Number required by the problem.
         expected: usize,
     },
     /// No trial of a goal was executed and observed.
-    #[error("goal {goal}: none of {trials} trials was executed and seen; check the robot, its limits and its sensors")]
+    #[error(
+        "goal {goal}: none of {trials} trials was executed and observed: check the robot, its limits and its sensors"
+    )]
     NothingExecuted {
         /// Goal index from 0.
         goal: usize,
@@ -97,7 +99,7 @@ pub enum ProblemError {
     /// No candidate of a goal satisfied the constraints.
     #[error(
         "goal {goal}: no candidate satisfied the constraints within the search's limits; the nearest violated them by \
-         {nearest:?} (m or rad, one a constraint): widen them, raise max_attempts or the population, or set \
+         {nearest:?} (m or rad, one per constraint): widen them, raise max_attempts or the population, or set \
          on_infeasible = \"append\" with a penalty"
     )]
     Infeasible {

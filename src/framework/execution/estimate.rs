@@ -1,37 +1,38 @@
-//! What a problem will cost, before it is run: its first repetition, simulated as far as the caller's patience goes.
+//! Cost of a problem before it is run, estimated from its first repetition, which is simulated for as long as the
+//! caller allows.
 
 use super::error::ProblemError;
 use super::iet::Iet;
 use super::simulate::simulate;
 use super::spec::Problem;
 
-/// Evaluations of a preview: enough for most problems to end.
+/// Maximum number of evaluations of a preview; most problems end earlier.
 const MOST_EVALUATIONS: u64 = 50_000;
-/// Evaluations between two questions whether to go on.
+/// Number of evaluations between two calls of `go_on`.
 const SLICE: u64 = 1000;
 
-/// How long a trial on a robot takes where nobody says otherwise, seconds.
+/// Default duration of a trial on a robot, seconds.
 pub const ROBOT_TRIAL_S: f64 = 15.0;
 
-/// Where the simulated first repetition of a problem came.
+/// Progress of the simulated first repetition of a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Preview {
-    /// Evaluations made.
+    /// Number of evaluations made.
     pub evaluations: u64,
     /// Number of goals n.
     pub goals: usize,
-    /// Goals that had ended.
+    /// Number of goals that had ended.
     pub goals_done: usize,
-    /// Whether the run came to its end.
+    /// Whether the run had ended.
     pub finished: bool,
 }
 
 impl Preview {
-    /// Simulates one repetition while `go_on` answers yes. It is asked when everything is ready for the first trial, then
-    /// now and again: between any two trials of a method that thinks long about each.
+    /// Simulates one repetition while `go_on` returns true. It is called once everything is ready for the first trial
+    /// and then from time to time; for a method that plans the whole run, before every trial.
     ///
     /// # Errors
-    /// [`ProblemError`] wherever the run itself would end with one.
+    /// [`ProblemError`] if the run itself would end with one.
     pub fn new(problem: &Problem, seed: u64, mut go_on: impl FnMut() -> bool) -> Result<Self, ProblemError> {
         let mut iet = Iet::new(problem, seed)?;
         let mut world = iet.world()?;
@@ -48,14 +49,14 @@ impl Preview {
         })
     }
 
-    /// Evaluations of the whole repetition, as far as can be told.
+    /// Estimated number of evaluations of the whole repetition.
     #[must_use]
     pub fn whole(&self) -> f64 {
         let evaluations = self.evaluations as f64;
         if self.finished { evaluations } else { evaluations * self.goals as f64 / (self.goals_done as f64 + 0.5) }
     }
 
-    /// How the estimate was made.
+    /// Basis of the estimate, in words.
     #[must_use]
     pub fn basis(&self) -> String {
         if self.finished {

@@ -22,7 +22,7 @@ impl GoalSearch {
         }
     }
 
-    /// Takes what became of candidate `id`.
+    /// Takes the outcome of candidate `id`.
     pub fn tell(&mut self, id: u64, outcome: Outcome<'_>) {
         match &mut self.judge {
             Some(judge) => judge.tell(self.optimizer.as_mut(), id, outcome),
@@ -38,7 +38,7 @@ impl GoalSearch {
         }
     }
 
-    /// Why the search has ended by its own rules; `None` while it goes on.
+    /// Reason for which the search has ended by its own rules; `None` while it goes on.
     pub fn stop(&self) -> Option<StopReason> {
         match &self.judge {
             Some(judge) => judge.stop(self.optimizer.as_ref()),
@@ -56,7 +56,7 @@ impl GoalSearch {
         self.judge.as_deref().and_then(Judge::nearest_violations)
     }
 
-    /// Fitness values so far that were no evaluations.
+    /// Number of fitness values so far that were not evaluations, by origin.
     pub fn tally(&self) -> Tally {
         match &self.judge {
             Some(judge) => judge.tally(self.optimizer.as_ref()),
@@ -64,7 +64,7 @@ impl GoalSearch {
         }
     }
 
-    /// Everything needed to go on with the same bits.
+    /// State from which a resumed search continues bit for bit.
     pub fn state(&self) -> (OptimizerState, Option<JudgeState>) {
         (self.optimizer.state(), self.judge.as_ref().map(|judge| judge.state().clone()))
     }

@@ -11,12 +11,12 @@ pub enum Seen<'a> {
     Lost,
     /// Rejected before it started: does not count as an evaluation.
     Failed,
-    /// Unknown whether it was executed. The run learns nothing and asks for it again once it is resumed, so whoever
-    /// drives the run must stop there.
+    /// It may or may not have been executed. The run learns nothing and asks for it again once it is resumed, so the
+    /// caller must stop there.
     Unknown,
 }
 
-/// As [`Seen`], before the values are looked at.
+/// Fate of a candidate before its values are checked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fate {
     Executed,
@@ -48,7 +48,8 @@ pub struct Observations {
 }
 
 impl Observations {
-    /// Empty, for candidates of `genes` genes and observations of `features` values, executed as `provenance` says.
+    /// An empty list for candidates of `genes` values and observations of `features` values, executed where
+    /// `provenance` says.
     #[must_use]
     pub fn new(genes: usize, features: usize, provenance: Provenance) -> Self {
         Self { genes, features, provenance, ids: Vec::new(), fates: Vec::new(), joints: Vec::new(), values: Vec::new() }
@@ -78,24 +79,24 @@ impl Observations {
         self.push(id, joints, Fate::Failed);
     }
 
-    /// Candidate `id` was executed at `joints`, but its observation is missing.
+    /// Records that candidate `id` was executed at `joints`, but that its observation is missing.
     ///
     /// # Panics
-    /// If `joints` has another length than genes.
+    /// If `joints` does not have `genes` values.
     pub fn lost(&mut self, id: u64, joints: &[f64]) {
         self.observed(id, joints).fill(f64::NAN);
     }
 
-    /// Nobody knows whether candidate `id` was executed at `joints`.
+    /// Records that nobody knows whether candidate `id` was executed at `joints`.
     ///
     /// # Panics
-    /// If `joints` has another length than genes.
+    /// If `joints` does not have `genes` values.
     pub fn unknown(&mut self, id: u64, joints: &[f64]) {
         self.push(id, joints, Fate::Unknown);
     }
 
     fn push(&mut self, id: u64, joints: &[f64], fate: Fate) -> &mut [f64] {
-        assert_eq!(joints.len(), self.genes, "a candidate has one value a gene");
+        assert_eq!(joints.len(), self.genes, "a candidate has one value per gene");
         self.ids.push(id);
         self.fates.push(fate);
         self.joints.extend_from_slice(joints);
@@ -104,7 +105,7 @@ impl Observations {
         &mut self.values[start..]
     }
 
-    /// Where the candidates were executed.
+    /// Place of execution: in simulation or on a robot.
     #[must_use]
     pub fn provenance(&self) -> Provenance {
         self.provenance

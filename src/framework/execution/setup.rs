@@ -1,4 +1,4 @@
-//! A problem made ready: robot, goals and world proven to fit together.
+//! A problem that is ready to run: its robot, goals, world and method have been checked against one another.
 
 use super::checks::{check_earlier, check_goals, check_method, check_spec};
 use super::error::ProblemError;
@@ -15,7 +15,7 @@ use crate::robot::{Chain, RobotModel};
 use crate::world::{self, WorldSpec};
 use std::sync::Arc;
 
-/// What a run needs of its problem.
+/// The parts of a problem that a run needs.
 #[derive(Debug, Clone)]
 pub(super) struct Setup {
     pub goals: Goals,
@@ -25,7 +25,7 @@ pub(super) struct Setup {
     /// For each feature of the goals, its index among the world's.
     pub select: Vec<usize>,
     pub world_features: usize,
-    /// Index of the painted percentage among the world's features, in coverage worlds.
+    /// Index of the painted percentage among the world's features; `None` if the world has no surface.
     pub painted: Option<usize>,
     pub constraints: Arc<Constraints>,
     /// Trials of earlier runs on the same robot.
@@ -33,7 +33,7 @@ pub(super) struct Setup {
 }
 
 impl Setup {
-    /// The problem with its own method, which is chosen if it is `auto`.
+    /// Checks a problem with its own method; `auto` is replaced by the method that it stands for.
     pub(super) fn of(problem: &Problem) -> Result<(Self, MethodKind), ProblemError> {
         let spec = &problem.execution;
         let chosen = spec.stands_for(&problem.world).map(|(method, _)| method);
@@ -46,7 +46,7 @@ impl Setup {
         Ok((Self::new(problem, method.name(), &kind)?, kind))
     }
 
-    /// The problem with `method`, whatever method the problem names.
+    /// Checks a problem with `method` in place of its own.
     pub(super) fn new(problem: &Problem, name: &'static str, method: &MethodKind) -> Result<Self, ProblemError> {
         let spec = problem.execution.clone();
         check_spec(&spec, name, method)?;
@@ -117,7 +117,7 @@ impl Setup {
         Ok(GoalSearch::new(optimizer, judge))
     }
 
-    /// Goes on with a saved search by `method` for the goal after `results`.
+    /// Resumes a saved search by `method` for the goal after `results`.
     pub(super) fn resume(
         &self,
         method: &dyn PerGoalMethod,
@@ -137,7 +137,7 @@ impl Setup {
         Ok(GoalSearch::new(optimizer, judge))
     }
 
-    /// How the goal after `results` is constrained, if it is.
+    /// Rules for the goal after `results`; `None` if there are no constraints.
     fn rules(&self, results: &[GoalResult]) -> Option<Rules> {
         (!self.constraints.is_empty()).then(|| Rules {
             constraints: Arc::clone(&self.constraints),
@@ -147,7 +147,7 @@ impl Setup {
         })
     }
 
-    /// Where the optimiser of the goal after `results` searches.
+    /// Space that the optimiser of the goal after `results` searches.
     fn space(&self, results: &[GoalResult]) -> SearchSpace {
         SearchSpace {
             lower: self.chain.genes().iter().map(|g| g.lower).collect(),
@@ -158,8 +158,8 @@ impl Setup {
         }
     }
 
-    /// The rounding noise of one candidate: uniform, of total width `rounding_noise`, a function of seed, goal and
-    /// candidate alone, so that the order of news does not matter.
+    /// The rounding noise of one candidate: uniform, of total width `rounding_noise`. It depends on seed, goal and
+    /// candidate alone, so that the order of observations does not matter.
     pub(super) fn noise(&self, seed: u64, goal: usize, id: u64) -> f64 {
         let width = self.spec.rounding_noise;
         if width == 0.0 {

@@ -9,7 +9,8 @@ use crate::method::per_goal::{Batch, Provenance};
 use crate::robot::Chain;
 use crate::world::{self, World};
 
-/// The simulated world of a run of `problem` with `chain` and `seed`: as described, or as far off as `reality` says.
+/// The simulated world of a run of `problem` with `chain` and `seed`, as described or disturbed (`reality` of the
+/// problem).
 ///
 /// # Errors
 /// [`ProblemError::World`] if the world cannot be built.
@@ -20,8 +21,8 @@ pub fn simulated_world(problem: &Problem, chain: &Chain, seed: u64) -> Result<Bo
 /// Number of candidates requested at once.
 const BATCH: u64 = 64;
 
-/// Makes up to `budget` evaluations of `iet` in `world`, which is first brought to the run's prefix. The caller slices
-/// a run to save it, cancel it or report on it; slicing does not change a bit of the result.
+/// Makes up to `budget` evaluations of `iet` in `world`, which is first brought to the run's prefix. Callers may slice
+/// a run to save it, cancel it or report on it: the result is the same to the last bit.
 ///
 /// # Errors
 /// [`ProblemError`] if a goal ends without any executed candidate.
@@ -53,7 +54,7 @@ pub fn simulate(iet: &mut Iet, world: &mut dyn World, budget: u64) -> Result<Pro
 /// Number of evaluations between two calls of `go_on`.
 const SLICE: u64 = 1024;
 
-/// Like [`run`]; `None` if `go_on` returns false before the end.
+/// Executes a whole run as [`run`] does; `None` if `go_on` returns false before the end.
 ///
 /// # Errors
 /// As for [`run`].

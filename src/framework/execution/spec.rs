@@ -1,4 +1,5 @@
-//! A problem: all an execution needs, self-contained and serialisable, so that a job can be rerun from it alone.
+//! A problem: everything that an execution needs, self-contained and serialisable, so that a job can be rerun from it
+//! alone.
 
 use crate::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::generalization::Goals;
@@ -10,7 +11,7 @@ use crate::world::{DisturbanceSpec, WorldSpec};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// Goals, robot, world and method of one execution; the seed is given beside it, once for each repetition.
+/// Goals, robot, world and method of one execution. The seed is not part of it, because each repetition has its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Problem {
@@ -18,18 +19,19 @@ pub struct Problem {
     pub goals: Goals,
     /// The robot's URDF, as text.
     pub urdf: String,
-    /// Which part of the robot moves.
+    /// The part of the robot that moves.
     pub robot: RobotSpec,
-    /// Where the effects happen.
+    /// The world in which the effects happen.
     pub world: WorldSpec,
-    /// How to search.
+    /// The method, its limits and the constraints.
     pub execution: ExecutionSpec,
-    /// Trials of earlier runs on the same robot, features in the goals' order: a model begins with what they taught.
+    /// Trials of earlier runs on the same robot, features in the goals' order. Method `model` learns from them
+    /// before its first trial.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub earlier: Vec<Trial>,
 }
 
-/// How an execution searches and when a goal ends.
+/// Settings of an execution: the search, and the end of a goal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExecutionSpec {
@@ -37,42 +39,43 @@ pub struct ExecutionSpec {
     #[serde(deserialize_with = "method_or_name")]
     #[schema(value_type = MethodChoice)]
     pub method: MethodSpec,
-    /// Why this method, where `auto` stood for it.
+    /// Reason for the method; absent unless `auto` chose it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen: Option<Chosen>,
-    /// How a candidate's discrepancy is measured.
+    /// Measure of a candidate's discrepancy.
     #[serde(default)]
     pub metric: Metric,
-    /// A goal, or the run of a method that owns it, ends at this discrepancy of all observed so far (features' unit).
+    /// Discrepancy of the partial observation at which a goal ends, or the whole run if the method plans it (features'
+    /// unit).
     #[serde(default)]
     pub target_discrepancy: Option<f64>,
-    /// A goal ends when an executed observation is at most this far (Euclidean, features' unit) from the goal.
+    /// Euclidean distance of an executed observation from the goal at which the goal ends (features' unit).
     #[serde(default)]
     pub tolerance: Option<f64>,
-    /// A goal ends after this many evaluations; moves that identify an unknown robot are not counted.
+    /// Number of evaluations after which a goal ends; moves that identify an unknown robot are not counted.
     #[serde(default)]
     pub max_evaluations_per_goal: Option<u64>,
     /// Total width of the seeded uniform noise added to each discrepancy (features' unit); 0 is none. The published
     /// runs' simulator was not exactly repeatable: 1e-13 mm reproduces their stagnation counts.
     #[serde(default)]
     pub rounding_noise: f64,
-    /// How far the simulated real world is from its description; as described when absent.
+    /// Deviation of the simulated reality from its description; if absent, there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reality: Option<DisturbanceSpec>,
-    /// What every candidate must satisfy.
+    /// Constraints that every candidate must satisfy.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub constraints: Vec<ConstraintSpec>,
-    /// What is done about candidates that do not.
+    /// Treatment of candidates that violate a constraint.
     #[serde(default, skip_serializing_if = "is_default")]
     pub handling: HandlingSpec,
-    /// What is done about goals for which no candidate does.
+    /// Treatment of goals for which no candidate satisfies the constraints.
     #[serde(default, skip_serializing_if = "is_default")]
     pub on_infeasible: OnInfeasible,
 }
 
 impl Problem {
-    /// Puts the method that `auto` stands for in its place and records why; an earlier choice is kept only while it is
-    /// still the method.
+    /// Replaces `auto` by the method that it stands for and records the reason; the record of an earlier choice is
+    /// dropped once the problem has another method.
     pub fn choose(&mut self) {
         let chosen = self.execution.stands_for(&self.world);
         let execution = &mut self.execution;
@@ -90,7 +93,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 impl ExecutionSpec {
-    /// `method` with everything else as it is by default.
+    /// Settings with `method` and defaults for the rest.
     #[must_use]
     pub fn new(method: MethodSpec) -> Self {
         Self {
@@ -108,7 +111,7 @@ impl ExecutionSpec {
         }
     }
 
-    /// The method that `auto` stands for in `world`, and why; `None` if the method is given by its own name.
+    /// The method that `auto` stands for in `world`, and the reason; `None` if the method is given by its own name.
     pub(super) fn stands_for(&self, world: &WorldSpec) -> Option<(MethodSpec, &'static str)> {
         let wishes = self.method.wishes()?;
         Some(choose(wishes, self.needs_population(), &world.properties()))

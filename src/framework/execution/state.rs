@@ -22,10 +22,10 @@ pub struct IetState {
     pub(super) goal: GoalState,
     pub(super) painted: Option<f64>,
     pub(super) optimizer: Option<OptimizerState>,
-    /// The judge beside it, if there are constraints.
+    /// State of the judge; `None` if there are no constraints.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) judge: Option<JudgeState>,
-    /// The trials of a method that plans the whole run.
+    /// Trials of a method that plans the whole run; empty for other methods.
     #[serde(default)]
     pub(super) log: Vec<Trial>,
 }
@@ -57,7 +57,7 @@ impl IetState {
         self.evaluations
     }
 
-    /// The state with the judge beside the optimiser: builds before the judge stood alone saved it around the optimiser.
+    /// This state in the present layout: earlier builds saved the optimiser inside the state of the judge.
     ///
     /// # Errors
     /// [`OptimizerError::Memory`] if that state cannot be read.
@@ -74,7 +74,7 @@ impl IetState {
         })
     }
 
-    /// Whether this state can be one of a problem with n goals, that many genes and m features.
+    /// Checks that the state fits a problem with n `goals`, poses of `genes` joints and m `features`.
     pub(super) fn check(
         &self,
         is_whole_run: bool,

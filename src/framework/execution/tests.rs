@@ -48,7 +48,7 @@ fn means_with(name: &str, method: &str, runs: u64, change: impl Fn(&mut Problem)
     [mean(&|r| r.evaluations as f64), mean(&|r| r.discrepancy)]
 }
 
-/// Raw means of the published runs (50 a cell): the standard errors of 40 of ours are 3 % and up to 9 %.
+/// Raw means of the published runs (50 per cell): the standard errors of 40 of ours are 3 % and up to 9 %.
 #[rstest]
 #[case("pso", 8470.0, 212.8, 0.2)]
 #[case("affg_pso", 5314.4, 433.8, 0.2)]

@@ -1,12 +1,12 @@
-//! Trials of which nobody knows whether they were executed.
+//! Trials that may or may not have been executed.
 
 use super::*;
 use crate::method::per_goal::{Batch, Provenance};
 use crate::preset::shipped;
 use rstest::rstest;
 
-/// Runs `problem` in batches of `size` and says of every `nth` trial, once, that nobody knows. As a job does, it then
-/// stops there and resumes from the saved state. Returns the result and how often it stopped.
+/// Runs `problem` in batches of `size` and reports every `nth` trial once as unknown; like a job, it then stops and
+/// resumes from the saved state. Returns the result and the number of stops.
 fn run_with_unknown_trials(problem: &Problem, seed: u64, size: usize, nth: u64) -> (RunResult, u32) {
     let mut iet = Iet::new(problem, seed).unwrap();
     let mut world = iet.world().unwrap();

@@ -1,5 +1,5 @@
-//! Drives a method that plans the whole run: it is told every observation and names one pose at a time; the run's state
-//! is its log.
+//! Driver of a method that plans the whole run: it tells the method every observation and keeps the one pose that the
+//! method proposes next. The log of trials is the whole state of such a run.
 
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
@@ -12,13 +12,13 @@ use crate::method::whole_run::{
 };
 use std::sync::Arc;
 
-/// Share of the goals' extent that is near enough where no tolerance is given.
+/// Tolerance as a share of the goals' extent, if the problem gives none.
 const TOLERANCE_SHARE: f64 = 0.1;
 
-/// A method at work, with what it wants next.
+/// A method with the trial that it proposes next.
 pub(super) struct WholeRunDriver {
     method: Box<dyn WholeRun>,
-    /// The target discrepancy, and what measures it.
+    /// The target discrepancy and its measure, if the problem gives one.
     target: Option<(f64, PartialDiscrepancy)>,
     pub next: NextTrial,
 }
@@ -37,12 +37,12 @@ impl WholeRunDriver {
         Ok(driver)
     }
 
-    /// What the method wants next; nothing once the target discrepancy is reached.
+    /// The next trial of the method; `Finished` once the target discrepancy is reached.
     fn ask(&mut self) -> NextTrial {
         if self.reaches_target() { NextTrial::Finished } else { self.method.ask() }
     }
 
-    /// Whether the best trials so far, one a goal, make up a run of the target discrepancy.
+    /// Whether the best trials so far, one per goal, are within the target discrepancy.
     fn reaches_target(&mut self) -> bool {
         let Some((target, measure)) = &self.target else { return false };
         if self.method.log().is_empty() {
@@ -63,12 +63,12 @@ impl WholeRunDriver {
         self.method.log()
     }
 
-    /// The poses whose effect stays, in order.
+    /// The accepted poses, whose effects stay, in order.
     pub fn prefix(&self) -> impl Iterator<Item = &[f64]> {
         self.method.accepted().iter().map(|&index| self.method.log()[index].joints.as_slice())
     }
 
-    /// The goal being tried.
+    /// Index of the goal that the next trial is for.
     pub fn goal(&self) -> usize {
         match &self.next {
             NextTrial::Execute { goal, .. } => *goal,
@@ -76,7 +76,7 @@ impl WholeRunDriver {
         }
     }
 
-    /// Takes what the world showed at `joints`; none where that was lost.
+    /// Takes the observation at `joints`; `None` if it was lost.
     pub fn tell(&mut self, setup: &Setup, joints: &[f64], shown: Option<&[f64]>) {
         let observation = shown.map(|values| setup.select.iter().map(|&source| values[source]).collect());
         let cells = shown.and_then(|values| setup.cells(values));
@@ -84,7 +84,7 @@ impl WholeRunDriver {
         self.next = self.ask();
     }
 
-    /// What the trials whose effect stays have brought the first feature to, once one was seen.
+    /// First feature of the last accepted trial that was observed; `None` if there is none.
     pub fn kept(&self) -> Option<f64> {
         let kept = self.method.accepted().iter().rev();
         kept.map(|&index| &self.method.log()[index]).find_map(|trial| Some(trial.observation.as_ref()?[0]))
@@ -148,7 +148,7 @@ impl WholeRunDriver {
     }
 }
 
-/// The method within what the constraints allow.
+/// A search by `method` that keeps to the constraints.
 fn within_limits(setup: &Setup, method: &dyn WholeRunMethod, seed: u64) -> Result<Box<dyn WholeRun>, ProblemError> {
     let goals: Vec<Vec<f64>> = setup.goals.rows().map(<[f64]>::to_vec).collect();
     let tolerance = setup.spec.tolerance.unwrap_or_else(|| TOLERANCE_SHARE * extent(&goals));
@@ -194,7 +194,7 @@ fn space(setup: &Setup) -> Space {
     space.only(Arc::new(move |pose| constraints.allows(pose)))
 }
 
-/// Diagonal of the box around the goals, features' unit; 1 where all goals are one.
+/// Diagonal of the box around the goals, features' unit; 1 if all goals are equal.
 fn extent(goals: &[Vec<f64>]) -> f64 {
     let side = |k: usize| {
         let column = || goals.iter().map(|g| g[k]);

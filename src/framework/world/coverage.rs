@@ -1,4 +1,4 @@
-//! The coverage world (the paper's paint): the cells of a grid that the tool has come close to.
+//! The coverage world (the paper's paint): a grid whose cells are painted when the tool comes close to them.
 
 use super::{CoverageSpec, Surface, SurfaceView, World, WorldError};
 use crate::range::{Range, above};
@@ -25,7 +25,7 @@ pub(super) struct Coverage {
     count: usize,
 }
 
-/// The surface and what is known of it.
+/// Properties of the surface of a coverage world.
 pub(super) fn surface(spec: &CoverageSpec) -> Surface {
     Surface {
         columns: spec.columns as usize,

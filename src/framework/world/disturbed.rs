@@ -66,7 +66,7 @@ impl DisturbanceSpec {
     }
 }
 
-/// Builds the world of `spec` around a robot that deviates from `chain` as `disturbance` says; `seed` is the run's.
+/// Builds the world of `spec` around a robot that deviates from `chain` by `disturbance`; `seed` is that of the run.
 ///
 /// # Errors
 /// [`WorldError`] as for [`build`], and for a number of `disturbance` out of range.
@@ -113,8 +113,8 @@ struct Disturbed {
 }
 
 impl Disturbed {
-    /// Computes where the joints really move and where they are observed; returns the random stream of the trial's
-    /// noise.
+    /// Computes the pose in which the arm comes to rest and the pose in which it is observed; returns the random stream
+    /// of the trial's noise.
     fn act(&mut self, joints: &[f64]) -> RandomStream {
         let mut word = self.seed ^ 0x9E37_79B9_7F4A_7C15;
         for joint in joints {

@@ -23,8 +23,8 @@ pub enum WorldError {
         /// Maximum number of cells.
         limit: u64,
     },
-    /// A length, a share or a duration is out of range; those of a [`DisturbanceSpec`](super::DisturbanceSpec) carry the
-    /// name `reality` that they have in a problem.
+    /// A length, a share or a duration is out of range; those of a [`DisturbanceSpec`](super::DisturbanceSpec) carry
+    /// the name `reality` that they have in a problem.
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
     /// All cells of a row or column are at the same place.

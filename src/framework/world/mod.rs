@@ -1,4 +1,4 @@
-//! Worlds: what a robot's pose does to the features. Deterministic, simulated, without I/O.
+//! Worlds: the effect of a robot's pose on the features. Deterministic, simulated, without I/O.
 //!
 //! # Architecture Invariants
 //! - A world's only memory is the prefix of poses committed since its last reset.
@@ -24,17 +24,17 @@ use crate::{CellSet, Feature};
 
 /// A simulated world that remembers the poses executed since its last reset (the prefix U_1..U_j-1).
 pub trait World: Send {
-    /// The m features an observation holds, in order.
+    /// The m features of an observation, in order.
     fn features(&self) -> &[Feature];
 
-    /// Forgets the prefix: the world as before the first pose.
+    /// Forgets the prefix: the world is as it was before the first pose.
     fn reset(&mut self);
 
     /// Writes the observation (m values) after the prefix and then `joints` (free joints, rad or m); changes nothing
     /// but scratch space and allocates nothing.
     fn observe(&mut self, joints: &[f64], observation: &mut [f64]);
 
-    /// As [`World::observe`], and the pose becomes part of the prefix.
+    /// Writes the observation as [`World::observe`] does, and makes the pose part of the prefix.
     fn commit(&mut self, joints: &[f64], observation: &mut [f64]);
 
     /// The cells that the prefix has changed; `None` if the world has no cells.
@@ -43,7 +43,7 @@ pub trait World: Send {
     }
 }
 
-/// The world `spec` describes, around the robot `chain`.
+/// Builds the world of `spec` around the robot `chain`.
 ///
 /// # Errors
 /// [`WorldError`] with the value and what is allowed.
@@ -55,10 +55,10 @@ pub fn build(spec: &WorldSpec, chain: &Chain) -> Result<Box<dyn World>, WorldErr
     })
 }
 
-/// The world of `spec`, as described or disturbed; `seed` is that of the run.
+/// Builds the world of `spec`, as described or disturbed; `seed` is that of the run.
 ///
 /// # Errors
-/// [`WorldError`] as [`build`] and [`build_disturbed`].
+/// [`WorldError`] as for [`build`] and [`build_disturbed`].
 pub fn simulated(
     spec: &WorldSpec,
     disturbance: Option<&DisturbanceSpec>,
@@ -72,7 +72,7 @@ pub fn simulated(
 }
 
 impl WorldSpec {
-    /// What can be relied on in this world.
+    /// Properties of this world that methods and jobs may rely on.
     #[must_use]
     pub fn properties(&self) -> WorldProperties {
         match self {
@@ -81,7 +81,7 @@ impl WorldSpec {
         }
     }
 
-    /// The description of the surface, to be changed; `None` if the world has none.
+    /// The description of the surface, for changes; `None` if the world has no surface.
     pub fn surface_mut(&mut self) -> Option<&mut CoverageSpec> {
         match self {
             Self::Coverage(spec) => Some(spec),
@@ -90,10 +90,10 @@ impl WorldSpec {
     }
 }
 
-/// The features a world of that description shows, without building it.
+/// The features of the world of `spec`, which is not built.
 ///
 /// # Errors
-/// [`WorldError`] wherever [`build`] would refuse the description.
+/// [`WorldError`] if [`build`] would refuse the description.
 pub fn features(spec: &WorldSpec) -> Result<Vec<Feature>, WorldError> {
     match spec {
         WorldSpec::ToolPosition(spec) => Ok(tool_position::features(spec)?.to_vec()),

@@ -1,5 +1,5 @@
-//! The properties of a world that are asked for in place of its kind: a new kind answers once, and every method, result
-//! and page that asks is right about it.
+//! Properties of worlds. Methods, results and pages ask for them in place of the kind of world, so that a new kind
+//! needs to state them only once.
 
 /// Properties of a world that methods and jobs may rely on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub struct Surface {
     pub rows: usize,
     /// Whether it can be reset between trials.
     pub resets: bool,
-    /// Whether the covered cells are seen, not only their share.
+    /// Whether an observation shows the covered cells, not only their share.
     pub cells_seen: bool,
 }
 

@@ -1,5 +1,5 @@
-//! The tool-distance world: how far the tool is from a point, regardless of the poses executed before. For actions whose
-//! effect is to approach, to keep clear of or to circle something, whatever the direction.
+//! The tool-distance world: the observation is the distance of the tool from a point, independent of earlier poses. It
+//! suits actions that approach something, keep clear of it or circle around it, whatever the direction.
 
 use super::{ToolDistanceSpec, World, WorldError, tool_position};
 use crate::Feature;
@@ -79,7 +79,7 @@ mod tests {
     }
 
     proptest! {
-        /// Known by the other world: the length of the way from the point to the position.
+        /// Compared with the tool-position world: the distance between its observation and the point.
         #[test]
         fn it_is_the_length_of_the_way_to_the_point(joints in prop::array::uniform3(-0.26..1.74_f64)) {
             let chain = crate::execution::Iet::new(&shipped("wax").unwrap().problem, 1).unwrap().chain().clone();
@@ -91,7 +91,7 @@ mod tests {
         }
     }
 
-    /// Ten centimetres nearer per goal: every method for smooth worlds gets there.
+    /// Goals ten centimetres apart, which every method for smooth worlds reaches.
     #[rstest]
     #[case("model")]
     #[case("broyden")]

@@ -7,7 +7,7 @@
 //!
 //! # Invariants
 //! - Result bits depend on problem and seed only: not on batch sizes, saves and resumes, or threads.
-//! - A method that plans the whole run names one pose at a time, and its results appear together at the end.
+//! - A method that plans the whole run proposes one pose at a time, and its results appear together at the end.
 
 mod start;
 mod tell;
@@ -27,7 +27,7 @@ use crate::world::{self, World};
 /// Candidate id for executing a winner that was never executed.
 const CONFIRMATION: u64 = u64::MAX;
 
-/// How the joints are found.
+/// The search for the joints.
 enum Search {
     /// One search per goal; `goal` is `None` exactly when the run is finished.
     PerGoal { method: Box<dyn PerGoalMethod>, goal: Option<GoalSearch> },
@@ -42,7 +42,7 @@ pub struct Iet {
     discrepancy: PartialDiscrepancy,
     search: Search,
     goal: GoalState,
-    /// Like [`RunResult::painted_percent`], for the last finished goal.
+    /// [`RunResult::painted_percent`] up to the last finished goal.
     painted: Option<f64>,
     results: Vec<GoalResult>,
     evaluations: u64,
@@ -62,7 +62,7 @@ impl Iet {
         &self.setup.chain
     }
 
-    /// Whether a whole-run method is at work: it names one pose at a time and may compute long for each.
+    /// Whether the method plans the whole run: such a method proposes one pose at a time and may compute long for each.
     #[must_use]
     pub fn plans_whole_run(&self) -> bool {
         self.driver().is_some()
@@ -74,7 +74,7 @@ impl Iet {
         self.seed
     }
 
-    /// The simulated world of this run: as described, or as far off as `reality` says.
+    /// The simulated world of this run, as described or disturbed (`reality` of the problem).
     ///
     /// # Errors
     /// [`ProblemError::World`]; cannot occur for a run that could be created.
@@ -83,14 +83,15 @@ impl Iet {
         Ok(world::simulated(&self.setup.world, reality, &self.setup.chain, self.seed)?)
     }
 
-    /// Poses to execute, in order, before each candidate: U_1..U_j-1, or the accepted poses of a whole-run method.
+    /// Poses to execute, in order, before each candidate: U_1..U_j-1, or the accepted poses of a method that plans the
+    /// whole run.
     pub fn prefix(&self) -> impl Iterator<Item = &[f64]> {
         let accepted = self.driver().into_iter().flat_map(WholeRunDriver::prefix);
         let results = if self.plans_whole_run() { &[] } else { self.results.as_slice() };
         accepted.chain(results.iter().map(|r| r.joints.as_slice()))
     }
 
-    /// All trials so far of a whole-run method; a later run on the same robot may start from them.
+    /// All trials so far of a method that plans the whole run; a later run on the same robot may start from them.
     #[must_use]
     pub fn log(&self) -> &[Trial] {
         self.driver().map_or(&[], WholeRunDriver::log)

@@ -20,8 +20,8 @@ impl Iet {
         Self::begin(setup, method, seed)
     }
 
-    /// Starts a run by the caller's own method in place of the one the problem names; the documentation of
-    /// [`method`](crate::method) shows one.
+    /// Starts a run by the caller's own method in place of the problem's; for an example, see the documentation of
+    /// [`method`](crate::method).
     ///
     /// # Errors
     /// As [`Iet::new`].
@@ -43,7 +43,7 @@ impl Iet {
         Self::go_on(setup, method, state)
     }
 
-    /// Goes on from a saved run that [`Iet::with_method`] began with the same method.
+    /// Resumes a saved run that [`Iet::with_method`] started with the same method.
     ///
     /// # Errors
     /// As [`Iet::resume`].

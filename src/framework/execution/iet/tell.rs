@@ -64,7 +64,7 @@ impl Iet {
         }
     }
 
-    /// As [`Iet::tell`], for a method that plans the whole run: a lost observation costs an evaluation too.
+    /// [`Iet::tell`] for a method that plans the whole run: a lost observation counts as an evaluation.
     fn tell_driver(&mut self, observations: &Observations) -> Result<(), ProblemError> {
         let Search::WholeRun(driver) = &mut self.search else { return Ok(()) };
         if let Some((_, joints, seen)) =
