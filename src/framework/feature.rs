@@ -1,10 +1,10 @@
 //! A feature: one scalar measured over time (an object's x; % of a wall painted; a force).
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Name and unit of one scalar feature.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Feature {
     /// Unique within its demonstration or action, for example `x` or `painted`.

@@ -5,12 +5,11 @@
 //! - `Interrupted` stores nothing: the job's progress is in its checkpoint.
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// State of a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema), schema(as = JobState))]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
-#[schema(as = JobState)]
 pub enum State {
     /// Waiting for a worker.
     Queued,
@@ -35,7 +34,7 @@ pub enum State {
 }
 
 /// Events that move a job between states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Event {
     /// A worker claimed it.

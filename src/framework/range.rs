@@ -4,10 +4,9 @@
 use serde::Serialize;
 use std::fmt;
 use std::ops::{RangeFrom, RangeInclusive};
-use utoipa::ToSchema;
 
 /// Limits of a finite number; a limit that is absent does not bind.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Range {
     /// Least value allowed.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -4,7 +4,6 @@ use crate::framework::Feature;
 use crate::framework::demonstration::{ClockPolicy, Format, Limits, ReadOptions};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use utoipa::ToSchema;
 
 /// One uploaded file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,7 +26,7 @@ pub struct UploadDemonstration {
 }
 
 /// Options for reading uploaded files; all are optional.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct UploadOptions {
     /// Format of the files; detected from their content if absent.

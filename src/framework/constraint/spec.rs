@@ -1,10 +1,10 @@
 //! Constraints and their handling as written by users (TOML presets, REST).
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// A condition on candidates; `kind` selects the variant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum ConstraintSpec {
     /// A point of the robot stays strictly inside or outside a region.
@@ -16,7 +16,8 @@ pub enum ConstraintSpec {
 }
 
 /// A point of the robot and the region it stays inside or outside of.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RegionSpec {
     /// The region, in the chain's base frame.
@@ -30,7 +31,8 @@ pub struct RegionSpec {
 }
 
 /// A side of a region's boundary.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
     /// The point stays inside the region, for example a workspace.
@@ -48,7 +50,8 @@ impl Side {
 }
 
 /// A convex region in the base frame; its boundary belongs to neither side.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
 pub enum GeometrySpec {
     /// Axis-aligned box, each side moved outwards by the dilatation.
@@ -84,7 +87,8 @@ pub enum GeometrySpec {
 }
 
 /// The points p with normal . p < offset.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpace {
     /// Outward normal, any non-zero length.
@@ -94,7 +98,8 @@ pub struct HalfSpace {
 }
 
 /// The constrained point.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(tag = "at", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PointSpec {
     /// The tool centre point.
@@ -119,7 +124,8 @@ pub enum PointSpec {
 }
 
 /// One revolute joint of an explicit chain.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ChainJoint {
     /// Free joint of the robot whose angle it follows.
@@ -134,7 +140,8 @@ pub struct ChainJoint {
 ///
 /// This limits the distance within the population, not the step between goals. Candidates without ancestors (a random
 /// initial population) satisfy it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PopulationVelocitySpec {
     /// Limit V, rad (or m), > 0.
@@ -142,7 +149,8 @@ pub struct PopulationVelocitySpec {
 }
 
 /// `|joint - previous goal's joint| <= limit` for every joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct JointStepSpec {
     /// Largest step, rad (or m), > 0.
@@ -153,7 +161,8 @@ pub struct JointStepSpec {
 }
 
 /// Treatment of a candidate that violates a constraint; `strategy` selects the variant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(tag = "strategy", rename_all = "snake_case", deny_unknown_fields)]
 pub enum HandlingSpec {
     /// The candidate is discarded and the optimiser proposes another, at most `max_attempts` times.
@@ -196,7 +205,8 @@ impl Default for HandlingSpec {
 }
 
 /// Size of a penalty and how it is applied.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PenaltySpec {
     /// Formula: f + p or f (1 + p).
@@ -207,7 +217,8 @@ pub struct PenaltySpec {
 }
 
 /// How a penalty p changes a discrepancy f.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PenaltyForm {
     /// f + p with p = 0 if feasible (paper eq. 7).
@@ -219,7 +230,8 @@ pub enum PenaltyForm {
 
 /// Size p of a penalty for violations `v_k` (m or rad) in generation t; `kind` selects the variant. All except `death`
 /// execute the candidate, so use them in simulation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PenaltyKind {
     /// A fixed fitness regardless of the violation; the candidate is neither executed nor counted.
@@ -315,7 +327,8 @@ fn frozen() -> f64 {
 }
 
 /// Treatment of a goal for which no feasible candidate was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum OnInfeasible {
     /// The run ends and reports it: no infeasible pose is ever part of a result.

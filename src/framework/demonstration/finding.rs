@@ -1,10 +1,10 @@
 //! Findings: each names its place in the file, a stable code and a remedy.
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Severity of a finding: whether it rejects the file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
     /// The file is rejected.
@@ -14,7 +14,8 @@ pub enum Severity {
 }
 
 /// Kind of a finding; the snake_case form is stable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FindingCode {
     /// The file is empty or holds only whitespace.
@@ -72,7 +73,8 @@ pub enum FindingCode {
 }
 
 /// One observation about a file, with its place and remedy.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Finding {
     /// `Error` if the finding rejects the file.
     pub severity: Severity,

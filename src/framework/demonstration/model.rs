@@ -2,9 +2,6 @@
 
 use crate::Feature;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
-use utoipa::openapi::{RefOr, Schema};
-use utoipa::{PartialSchema, ToSchema};
 
 /// One recorded stream: k samples of m features with strictly increasing time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -174,28 +171,13 @@ impl Stream {
 }
 
 /// Serialized form of [`Stream`]; `values` is row-major, samples x features.
-#[derive(Serialize, Deserialize, ToSchema)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawStream {
     name: String,
     features: Vec<Feature>,
     time_s: Vec<f64>,
     values: Vec<f64>,
-}
-
-impl PartialSchema for Stream {
-    fn schema() -> RefOr<Schema> {
-        RawStream::schema()
-    }
-}
-
-impl ToSchema for Stream {
-    fn name() -> Cow<'static, str> {
-        Cow::Borrowed("Stream")
-    }
-    fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
-        RawStream::schemas(schemas);
-    }
 }
 
 impl TryFrom<RawStream> for Stream {
@@ -212,7 +194,7 @@ impl From<Stream> for RawStream {
 }
 
 /// One performance of an action: one or more streams recorded together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Demonstration {
     /// Display name.

@@ -3,10 +3,9 @@
 use crate::Feature;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use utoipa::ToSchema;
 
 /// Format of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Format {
     /// Separated by comma, semicolon or tab, with a header line.
@@ -19,7 +18,7 @@ pub enum Format {
 }
 
 /// Treatment of the clocks of a demonstration's streams.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClockPolicy {
     /// Times stay as they were recorded.
@@ -30,7 +29,7 @@ pub enum ClockPolicy {
 }
 
 /// Options for reading a file or bundle.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReadOptions {
     /// Name of the demonstration. If absent, the name in the JSON or else that of the stream is used.
@@ -55,7 +54,7 @@ pub struct ReadOptions {
 }
 
 /// Bounds beyond which a file is rejected as too large, too long or implausible.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Limits {
     /// Bytes of all files of a demonstration in total.

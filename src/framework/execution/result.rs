@@ -3,10 +3,9 @@
 use crate::method::per_goal::{Provenance, StopReason, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use utoipa::ToSchema;
 
 /// An improvement of the best discrepancy.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TracePoint {
     /// Number of evaluations for this goal so far, including this one.
     pub evaluations: u64,
@@ -15,7 +14,7 @@ pub struct TracePoint {
 }
 
 /// Result of one goal.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GoalResult {
     /// Goal index from 0.
     pub index: usize,
@@ -48,7 +47,7 @@ pub struct GoalResult {
 }
 
 /// Progress of a run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
     /// Index of the goal being searched; equal to `goals` if finished.
     pub goal_index: usize,
@@ -67,7 +66,7 @@ pub struct Progress {
 }
 
 /// A finished run of one seed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
     /// Seed of the run.
     pub seed: u64,

@@ -4,12 +4,11 @@
 use crate::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::generalization::Goals;
 use crate::method::whole_run::Trial;
-use crate::method::{Chosen, MethodChoice, MethodSpec, choose, method_or_name};
+use crate::method::{Chosen, MethodSpec, choose, method_or_name};
 use crate::recognition::Metric;
 use crate::robot::RobotSpec;
 use crate::world::{DisturbanceSpec, WorldSpec};
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Goals, robot, world and method of one execution. The seed is not part of it, because each repetition has its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,12 +31,13 @@ pub struct Problem {
 }
 
 /// Settings of an execution: the search, and the end of a goal.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ExecutionSpec {
     /// The optimiser and its parameters; the name alone is the method with its defaults.
     #[serde(deserialize_with = "method_or_name")]
-    #[schema(value_type = MethodChoice)]
+    #[cfg_attr(feature = "schema", schema(value_type = crate::method::MethodChoice))]
     pub method: MethodSpec,
     /// Reason for the method; absent unless `auto` chose it.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -9,13 +9,13 @@
 use super::summary::{half_width_95, mean, standard_deviation};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
-use utoipa::ToSchema;
 
 /// Up to this many non-zero differences, the p value is exact (including ties).
 const EXACT_UP_TO: usize = 50;
 
 /// Comparison of one quantity over the same seeds; differences are second minus first.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct PairedComparison {
     /// Number of pairs k.
     pub pairs: u64,

@@ -2,10 +2,10 @@
 
 use super::{Cell, Experiment, InvalidRule, PairedComparison, RunRow, Summary, compare};
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// One row of a table: statistics over the runs that count.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CellResult {
     /// Table it belongs to.
     pub table: String,
@@ -28,7 +28,8 @@ pub struct CellResult {
 }
 
 /// A quantity of a run that can be compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// Evaluations after the last goal.

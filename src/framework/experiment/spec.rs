@@ -5,14 +5,13 @@ use crate::execution::Problem;
 use crate::preset::Preset;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use utoipa::ToSchema;
 
 /// Maximum number of runs (cells x repetitions) of an experiment.
 pub const MAX_RUNS: u64 = 1_000_000;
 
 /// Description of an experiment: individual cells, a matrix, or both. Every cell runs the seeds
 /// `seed..seed + repetitions`, so that cells can be compared in pairs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentSpec {
     /// Display name.
@@ -31,7 +30,8 @@ pub struct ExperimentSpec {
 }
 
 /// One cell: a preset and the changes to it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CellSpec {
     /// Heading under which the cell is shown, for example the number of a table.
@@ -49,7 +49,7 @@ pub struct CellSpec {
     /// JSON merge patch over the preset's problem; selecting another `name`, `kind` or `strategy` replaces that whole
     /// choice.
     #[serde(default)]
-    #[schema(value_type = Object)]
+    #[cfg_attr(feature = "schema", schema(value_type = Object))]
     pub overrides: Value,
     /// Treatment of a run without any feasible candidate at its last goal.
     #[serde(default)]
@@ -57,7 +57,8 @@ pub struct CellSpec {
 }
 
 /// Presets x methods x settings; an empty axis changes nothing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MatrixSpec {
     /// Names of the presets to start from.
@@ -74,7 +75,8 @@ pub struct MatrixSpec {
 }
 
 /// One point on an axis of the matrix.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
     /// Name, shown as part of the cell's setting.
@@ -84,12 +86,13 @@ pub struct Variant {
     pub method: Option<String>,
     /// JSON merge patch over the problem.
     #[serde(default)]
-    #[schema(value_type = Object)]
+    #[cfg_attr(feature = "schema", schema(value_type = Object))]
     pub overrides: Value,
 }
 
 /// Treatment of a run whose last goal ended without a feasible candidate.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum InvalidRule {
     /// It is left out of all statistics and counted as invalid.

@@ -9,11 +9,10 @@ use super::{Cell, CellResult, Plan};
 use crate::method::per_goal::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use utoipa::ToSchema;
 
 /// Id of a run within an experiment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ToSchema)]
-#[schema(as = ExperimentRun)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema), schema(as = ExperimentRun))]
 pub struct RunId {
     /// Index of the cell, from 0.
     pub cell: u32,
@@ -22,7 +21,8 @@ pub struct RunId {
 }
 
 /// Summary of one finished run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct RunRow {
     /// Id of the run.
     #[serde(flatten)]

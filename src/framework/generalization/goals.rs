@@ -2,9 +2,6 @@
 
 use crate::Feature;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
-use utoipa::openapi::{RefOr, Schema};
-use utoipa::{PartialSchema, ToSchema};
 
 /// n goals (rows) x m features (columns), finite, at least 1 x 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -106,26 +103,11 @@ impl Goals {
 }
 
 /// Serialized form of [`Goals`]: n rows with one value per feature.
-#[derive(Serialize, Deserialize, ToSchema)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawGoals {
     features: Vec<Feature>,
     goals: Vec<Vec<f64>>,
-}
-
-impl PartialSchema for Goals {
-    fn schema() -> RefOr<Schema> {
-        RawGoals::schema()
-    }
-}
-
-impl ToSchema for Goals {
-    fn name() -> Cow<'static, str> {
-        Cow::Borrowed("Goals")
-    }
-    fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
-        RawGoals::schemas(schemas);
-    }
 }
 
 impl TryFrom<RawGoals> for Goals {

@@ -7,7 +7,6 @@
 use super::{Goals, GoalsError};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Largest number of goals to interpolate: the system is a dense n x n one.
 const MAX_NODES: usize = 2000;
@@ -17,7 +16,7 @@ const MAX_POINTS: usize = 100_000;
 const TOLERANCE: f64 = 1e-6;
 
 /// Radial function phi(r); epsilon is a length in normalised time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RbfKernel {
     /// sqrt((r / epsilon)^2 + 1).
@@ -36,7 +35,7 @@ pub enum RbfKernel {
 }
 
 /// Options for interpolation.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RbfSpec {
     /// Radial function.

@@ -3,10 +3,10 @@
 use super::Goals;
 use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// How the samples of several demonstrations are combined into a goal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Weighting {
     /// The mean of the demonstrations' means: every demonstration counts equally. n = floor(mean duration / T_min).
@@ -19,7 +19,7 @@ pub enum Weighting {
 }
 
 /// Options of a generalization.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GeneralizeSpec {
     /// T_min, the duration of one goal, seconds (> 0).
@@ -41,7 +41,7 @@ impl GeneralizeSpec {
 }
 
 /// A generalized action and the data it was made from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Generalized {
     /// Matrix X: n goals of m features.

@@ -16,10 +16,9 @@ use super::whole_run::{BroydenSpec, CoverSpec, ModelSpec, ParticleSpec};
 use crate::range::OutOfRange;
 use crate::world::WorldProperties;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// A method as the catalogue describes it.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MethodEntry {
     /// Name, as written in presets, in requests and on the command line.
     pub name: &'static str,
@@ -54,7 +53,8 @@ macro_rules! runs {
 macro_rules! catalogue {
     ($($(#[doc = $sentence:literal])+ $variant:ident($spec:ident) = $name:literal, $label:literal, $runs:ident;)+) => {
         /// A method with its parameters; `name` picks one.
-        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+        #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
         #[serde(tag = "name", rename_all = "snake_case")]
         pub enum MethodSpec {
             $(

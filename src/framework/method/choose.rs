@@ -13,13 +13,13 @@ use super::per_goal::CmaEsSpec;
 use super::whole_run::{CoverSpec, ModelSpec, ParticleSpec, Prior};
 use crate::world::WorldProperties;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Precision of a search whose evaluations cost nothing, as a share of each joint's range.
 const FREE_PRECISION: f64 = 0.001;
 
 /// The method that was chosen for a problem, and why.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Chosen {
     /// Name of the method.

@@ -4,10 +4,10 @@ use super::parameters::Parameters;
 use crate::range::OutOfRange;
 use crate::world::WorldProperties;
 use serde::Serialize;
-use utoipa::ToSchema;
 
 /// How far a method plans.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Scope {
     /// One search per goal, goal after goal.
@@ -19,7 +19,8 @@ pub enum Scope {
 }
 
 /// How features must follow from what the robot does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Effects {
     /// In any way.
@@ -31,7 +32,8 @@ pub enum Effects {
 }
 
 /// How a method uses the description of robot and world.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SimulatorUse {
     /// Not at all: joints in, features out.
@@ -43,7 +45,8 @@ pub enum SimulatorUse {
 }
 
 /// What a method needs of a problem.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Needs {
     /// How features must follow from what the robot does.
     pub effects: Effects,
@@ -54,7 +57,7 @@ pub struct Needs {
 }
 
 /// What a method is and needs, whatever its parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Profile {
     /// How far it plans.
     pub scope: Scope,

@@ -119,5 +119,7 @@ pub use catalogue::{MethodEntry, MethodSpec, catalogue};
 pub use choose::{Chosen, choose};
 pub use contract::{Effects, Knowledge, Method, Needs, Profile, Scope, SimulatorUse};
 pub use kind::MethodKind;
-pub use notation::{MethodChoice, method_or_name};
+#[cfg(feature = "schema")]
+pub use notation::MethodChoice;
+pub use notation::method_or_name;
 pub use parameters::{Choice, Parameter, ParameterValue, Parameters, Values};

@@ -4,10 +4,10 @@ use super::catalogue::MethodSpec;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
-use utoipa::ToSchema;
 
 /// How a method is written: its name, which takes its defaults, or an object with its parameters.
-#[derive(ToSchema)]
+#[cfg(feature = "schema")]
+#[derive(utoipa::ToSchema)]
 #[schema(as = MethodChoice)]
 #[serde(untagged)]
 pub enum MethodChoice {

@@ -6,10 +6,9 @@
 use crate::range::{OutOfRange, Range};
 use serde::Serialize;
 use serde_json::Value;
-use utoipa::ToSchema;
 
 /// A parameter as the catalogue describes it.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Parameter {
     /// Name, as written in presets and requests.
     pub name: &'static str,
@@ -26,7 +25,7 @@ pub struct Parameter {
 }
 
 /// The values a parameter may take.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Values {
     /// A whole number.
@@ -49,7 +48,6 @@ pub enum Values {
     /// An object of further parameters.
     Group {
         /// The parameters inside.
-        #[schema(no_recursion)]
         parameters: Vec<Parameter>,
     },
 }
@@ -188,7 +186,8 @@ macro_rules! parameters {
         }
     ) => {
         $(#[doc = $about])+
-        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize, utoipa::ToSchema)]
+        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
         #[serde(deny_unknown_fields, default)]
         pub struct $spec {
             $(

@@ -5,7 +5,6 @@ use super::dtw::{self, Border};
 use crate::Feature;
 use crate::distance::distance;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Discrepancy D between an observation of I rows and J goals over the same m features, in the features' unit.
 ///
@@ -30,7 +29,8 @@ pub fn discrepancy(metric: Metric, observed: &[f64], goals: &[f64], features: us
 }
 
 /// One feature's share of a discrepancy.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct FeatureDiscrepancy {
     /// Name and unit.
     pub feature: Feature,

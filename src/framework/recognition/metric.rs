@@ -2,10 +2,10 @@
 
 use super::dtw::Border;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// How dynamic time warping (DTW) turns two feature trajectories into one discrepancy.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
     /// One optimal path per feature, the normalised costs summed (paper eq. 4-6): each feature's distance is divided by

@@ -16,7 +16,6 @@ use super::{FeatureDiscrepancy, Metric};
 use crate::Feature;
 use crate::generalization::Goals;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Default threshold: relative discrepancy above which the best candidate is not recognized.
 pub const DEFAULT_THRESHOLD: f64 = 0.3;
@@ -24,7 +23,7 @@ pub const DEFAULT_THRESHOLD: f64 = 0.3;
 const MAX_CELLS: usize = 16 << 20;
 
 /// Options for recognition.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecognizeSpec {
     /// Metric of the discrepancy.
@@ -34,7 +33,7 @@ pub struct RecognizeSpec {
 }
 
 /// Result of a recognition, with every candidate.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recognition {
     /// Name of the best candidate; absent (*unknown*) if none is within the threshold.
     pub recognized: Option<String>,
@@ -49,7 +48,7 @@ pub struct Recognition {
 }
 
 /// Discrepancy of one candidate.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Match {
     /// Name of the action.
     pub name: String,
@@ -67,7 +66,7 @@ pub struct Match {
 }
 
 /// A candidate whose features were not observed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Incomparable {
     /// Name of the action.
     pub name: String,

@@ -3,10 +3,10 @@
 use super::chain::{Chain, Gene};
 use super::model::{JointKind, RobotModel};
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Summary of a robot model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct RobotSummary {
     /// Name in the URDF.
     pub name: String,
@@ -23,7 +23,8 @@ pub struct RobotSummary {
 }
 
 /// Summary of one joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct JointSummary {
     /// Unique name.
     pub name: String,
@@ -42,7 +43,8 @@ pub struct JointSummary {
 }
 
 /// Information missing from the URDF.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct RobotNote {
     /// Name of the joint.
     pub joint: String,
@@ -105,7 +107,8 @@ pub fn summarize(model: &RobotModel) -> RobotSummary {
 }
 
 /// Summary of the chain a job moves.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ChainSummary {
     /// Base link; positions are expressed in its frame.
     pub base_link: String,

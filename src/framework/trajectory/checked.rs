@@ -2,10 +2,9 @@
 
 use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// One sample of a trajectory.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Time from the start, s.
     pub time_s: f64,
@@ -20,7 +19,8 @@ pub struct Point {
 }
 
 /// A kind of limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum LimitKind {
     /// Position within lower and upper.
@@ -32,7 +32,8 @@ pub enum LimitKind {
 }
 
 /// The point at which a kind of limit is used most.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Tightest {
     /// Kind of limit.
     pub kind: LimitKind,
@@ -50,7 +51,7 @@ pub struct Tightest {
 }
 
 /// Planning limits of one joint.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct JointLimits {
     pub name: String,
     pub lower: f64,
@@ -133,7 +134,7 @@ pub enum TrajectoryError {
 }
 
 /// A trajectory within all limits. Only [`plan()`](super::plan()) creates one.
-#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CheckedTrajectory {
     joints: Vec<String>,
     fixed_joints: std::collections::BTreeMap<String, f64>,

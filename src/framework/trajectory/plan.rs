@@ -9,7 +9,6 @@ use super::checked::{CheckedTrajectory, JointLimits, Point, TrajectoryError};
 use crate::range::{OutOfRange, Range};
 use crate::robot::Chain;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Velocity limit assumed if the URDF has none, rad/s or m/s.
 pub const DEFAULT_VELOCITY: f64 = 0.5;
@@ -21,7 +20,7 @@ const SAME_POSE: f64 = 1e-12;
 const MAX_SAMPLES: f64 = 1e6;
 
 /// Parameters of a trajectory.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlanSpec {
     /// Time between two samples, s; each waypoint is an additional sample.

@@ -11,12 +11,12 @@ use crate::robot::Chain;
 use crate::trajectory::{JointLimits, late, limits};
 use crate::{CellSet, Feature};
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Deviation of the simulated reality from its description.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
-#[schema(as = RealitySpec)]
+#[cfg_attr(feature = "schema", schema(as = RealitySpec))]
 pub struct DisturbanceSpec {
     /// Maximum relative error of each link's length, uniformly distributed.
     pub link_share: f64,

@@ -1,10 +1,10 @@
 //! World descriptions as written by users (TOML presets, REST); `kind` selects the variant.
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Description of a simulated world.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum WorldSpec {
     /// The observation is the tool's position (the paper's wax).
@@ -16,7 +16,8 @@ pub enum WorldSpec {
 }
 
 /// Features x, y, z: position of the tool centre point in the chain's base frame.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ToolPositionSpec {
     /// Unit of the features: `m` or `mm`.
@@ -24,7 +25,8 @@ pub struct ToolPositionSpec {
 }
 
 /// Feature `distance`: distance of the tool centre point from `point_m`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ToolDistanceSpec {
     /// The point; chain's base frame, metres.
@@ -34,7 +36,8 @@ pub struct ToolDistanceSpec {
 }
 
 /// Content of an observation of a surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SurfaceView {
     /// The painted percentage.
@@ -46,7 +49,8 @@ pub enum SurfaceView {
 
 /// Feature `painted`, %: 100 x painted cells / cells. A cell becomes painted when the tool centre point, at a visited
 /// static pose, is strictly closer than `radius_m` to its centre, and stays painted until the world is reset.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CoverageSpec {
     /// Centre of the cell in row 0, column 0; base frame, metres.

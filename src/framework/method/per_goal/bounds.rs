@@ -2,10 +2,10 @@
 
 use crate::method::parameters::Choice;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// What happens to a gene that an operator puts outside its limits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum BoundsRule {
     /// It is put on the nearest limit: every candidate can be executed.

@@ -1,10 +1,10 @@
 //! Where fitness values come from, and why a goal ended.
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Where a fitness value comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Provenance {
     /// Executed in a simulated world.
@@ -28,7 +28,8 @@ impl Provenance {
 }
 
 /// Why a goal ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum StopReason {
     /// Too many generations without strict improvement.
@@ -46,7 +47,8 @@ pub enum StopReason {
 }
 
 /// Where fitness values come from and what was done about infeasible candidates, by count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Tally {
     /// Executed in simulation.
     pub simulated: u64,

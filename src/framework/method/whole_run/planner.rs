@@ -6,7 +6,6 @@ use crate::CellSet;
 use crate::robot::Chain;
 use crate::world::{WorldError, WorldSpec};
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// A map from joints to features: a simulated world, right or wrong, as a prior mean.
 pub trait FeatureMap: Send {
@@ -21,7 +20,8 @@ impl<F: FnMut(&[f64], &mut [f64]) + Send> FeatureMap for F {
 }
 
 /// One executed pose and what was seen.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Trial {
     /// Joints as commanded, rad or m.
     pub joints: Vec<f64>,
@@ -29,7 +29,7 @@ pub struct Trial {
     pub observation: Option<Vec<f64>>,
     /// The cells seen affected after it, 64 a word, row-major, lowest bit first; none where cells are not seen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schema(value_type = Option<Vec<u64>>)]
+    #[cfg_attr(feature = "schema", schema(value_type = Option<Vec<u64>>))]
     pub cells: Option<CellSet>,
     /// The goal the pose was tried for.
     pub goal: usize,

@@ -4,7 +4,6 @@ use crate::method::parameters::{Choice, parameters};
 use crate::method::per_goal::BoundsRule;
 use crate::range::above;
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 parameters! {
     /// Parameters that every particle swarm shares. Defaults: inertia and acceleration of M. Clerc and J. Kennedy's
@@ -43,7 +42,8 @@ parameters! {
 }
 
 /// Which sides of a velocity are limited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum VelocityClamp {
     /// To plus and minus the largest velocity.
@@ -54,7 +54,8 @@ pub enum VelocityClamp {
 }
 
 /// Who leads the swarm.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Leader {
     /// The particle with the best memory: the global best of the literature.

@@ -3,10 +3,10 @@
 use crate::method::contract::{Effects, Knowledge, Method, Profile, SimulatorUse};
 use crate::method::parameters::{Choice, parameters};
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
 
 /// Belief before the first trial.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Prior {
     /// Nothing: identification moves come first.
