@@ -17,10 +17,11 @@
 //!
 //! Source: L. Stone, Theory of Optimal Search, Academic Press 1975.
 
-use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
+use super::planner::{RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::{Axis, Space};
 use super::surface::cell_predictor::{CellPredictor, Grid};
 use super::surface::cover::{CoverSpec, Ledger};
+use super::surface::covering::Covering;
 use super::surface::sobol;
 use crate::random::RandomStream;
 use crate::world::{Surface, WorldError};
@@ -145,11 +146,12 @@ impl WholeRunMethod for CoverSpec {
     }
 }
 
-impl WholeRun for SearchIet {
-    fn ask(&mut self) -> NextTrial {
-        if self.ledger.is_over() {
-            return NextTrial::Finished;
-        }
+impl Covering for SearchIet {
+    fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+
+    fn pose(&mut self) -> Option<Vec<f64>> {
         let mut expected: Vec<f64> = (0..self.poses.len()).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
         let chances = self.predictor.as_ref().and_then(|s| s.chances(&self.poses, |a, b| self.squared(a, b)));
         if let Some(chances) = chances {
@@ -166,10 +168,10 @@ impl WholeRun for SearchIet {
                 best = (sum / weight, Some(z));
             }
         }
-        best.1.map_or(NextTrial::Finished, |z| self.ledger.propose(self.poses[z].clone()))
+        best.1.map(|z| self.poses[z].clone())
     }
 
-    fn tell(&mut self, trial: Trial) {
+    fn learn(&mut self, trial: Trial) {
         let joints = trial.joints.clone();
         let verdict = self.ledger.tell(trial);
         let squared: Vec<f64> = self.poses.iter().map(|x| self.squared(&joints, x)).collect();
@@ -197,21 +199,5 @@ impl WholeRun for SearchIet {
             self.radius *= SHRINK;
             self.rebuild();
         }
-    }
-
-    fn log(&self) -> &[Trial] {
-        &self.ledger.log
-    }
-
-    fn accepted(&self) -> &[usize] {
-        &self.ledger.accepted
-    }
-
-    fn outcomes(&mut self) -> Vec<GoalOutcome> {
-        self.ledger.outcomes()
-    }
-
-    fn is_used_up(&self, _: usize) -> bool {
-        self.ledger.is_used_up()
     }
 }

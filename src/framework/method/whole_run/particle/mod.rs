@@ -13,9 +13,10 @@ mod uncertain_robot;
 
 pub use spec::ParticleSpec;
 
-use super::planner::{GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
+use super::planner::{RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::Space;
 use super::surface::cover::{CoverSpec, Ledger, TrialEffect};
+use super::surface::covering::Covering;
 use super::surface::sobol;
 use crate::CellSet;
 use crate::random::RandomStream;
@@ -224,15 +225,16 @@ impl WholeRunMethod for ParticleSpec {
     }
 }
 
-impl WholeRun for ParticleIet {
-    fn ask(&mut self) -> NextTrial {
-        match self.next {
-            Some(z) if !self.ledger.is_over() => self.ledger.propose(self.poses[z].clone()),
-            _ => NextTrial::Finished,
-        }
+impl Covering for ParticleIet {
+    fn ledger(&self) -> &Ledger {
+        &self.ledger
     }
 
-    fn tell(&mut self, trial: Trial) {
+    fn pose(&mut self) -> Option<Vec<f64>> {
+        self.next.map(|z| self.poses[z].clone())
+    }
+
+    fn learn(&mut self, trial: Trial) {
         let tried = [trial.joints.clone()];
         let verdict = self.ledger.tell(trial);
         if let Some(z) = self.poses.iter().position(|p| *p == tried[0]) {
@@ -246,22 +248,6 @@ impl WholeRun for ParticleIet {
         if !self.ledger.is_over() {
             self.decide();
         }
-    }
-
-    fn log(&self) -> &[Trial] {
-        &self.ledger.log
-    }
-
-    fn accepted(&self) -> &[usize] {
-        &self.ledger.accepted
-    }
-
-    fn outcomes(&mut self) -> Vec<GoalOutcome> {
-        self.ledger.outcomes()
-    }
-
-    fn is_used_up(&self, _: usize) -> bool {
-        self.ledger.is_used_up()
     }
 }
 

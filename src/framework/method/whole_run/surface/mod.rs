@@ -2,6 +2,7 @@
 
 pub(super) mod cell_predictor;
 pub(super) mod cover;
+pub(super) mod covering;
 pub(super) mod sobol;
 #[cfg(test)]
 mod tests;
