@@ -1,10 +1,11 @@
 //! The catalogue: one row per method, from which everything that knows methods by name follows.
 //!
-//! A row holds the method's sentence, the type of its parameters, its name, its label and how far it plans. Parsing, checking, starting and
-//! resuming, the help of the command line and the ranges of the OpenAPI document are made of it.
+//! A row holds the method's sentence, the type of its parameters, its name, its label and how far it plans. Parsing,
+//! checking, starting and resuming, the help of the command line and the ranges of the OpenAPI document follow from it.
 //!
 //! # Architecture Invariants
-//! - Nothing outside of this file matches on every method; what a method is or does is asked of the method.
+//! - Nothing outside this file matches on every method: ask the method instead.
+//! - A method's name is written in its row alone; the method itself reads it as `Spec::NAME`.
 
 use super::auto::AutoSpec;
 use super::contract::{Knowledge, Method, Profile, Scope};
@@ -63,15 +64,22 @@ macro_rules! catalogue {
             )+
         }
 
+        $(
+            impl $spec {
+                /// Name of the method in presets, in requests, on the command line and in saved states.
+                pub const NAME: &'static str = $name;
+            }
+        )+
+
         impl MethodSpec {
             /// Names of all methods.
-            pub const NAMES: [&'static str; [$($name),+].len()] = [$($name),+];
+            pub const NAMES: [&'static str; [$($name),+].len()] = [$($spec::NAME),+];
 
             /// The method of that name with its defaults.
             #[must_use]
             pub fn by_name(name: &str) -> Option<Self> {
                 match name {
-                    $($name => Some(Self::$variant($spec::default())),)+
+                    $($spec::NAME => Some(Self::$variant($spec::default())),)+
                     _ => None,
                 }
             }
@@ -80,7 +88,7 @@ macro_rules! catalogue {
             #[must_use]
             pub fn name(&self) -> &'static str {
                 match self {
-                    $(Self::$variant(_) => $name,)+
+                    $(Self::$variant(_) => $spec::NAME,)+
                 }
             }
 
@@ -110,7 +118,7 @@ macro_rules! catalogue {
         pub fn catalogue() -> Vec<MethodEntry> {
             vec![$(
                 MethodEntry {
-                    name: $name,
+                    name: $spec::NAME,
                     label: $label,
                     purpose: sentence(&[$($sentence),+]),
                     profile: $spec::default().profile(),

@@ -1,7 +1,5 @@
 //! Candidates on their way from optimiser to world: flat and reused, so that a batch needs no allocation.
 
-use serde::{Deserialize, Serialize};
-
 /// Up to `capacity` candidates of n genes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Batch {
@@ -59,11 +57,4 @@ impl Batch {
     pub fn iter(&self) -> impl ExactSizeIterator<Item = (u64, &[f64])> {
         self.ids.iter().copied().zip(self.joints.chunks_exact(self.genes))
     }
-}
-
-/// A candidate that has no fitness yet: the id it was handed out under, and its row in the population.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Pending {
-    pub id: u64,
-    pub slot: usize,
 }

@@ -12,7 +12,7 @@
 //! Source: R. Storn, K. Price, "Differential Evolution - A Simple and Efficient Heuristic for Global Optimization over
 //! Continuous Spaces", J. Global Optimization 11 (1997) 341-359, DOI 10.1023/A:1008202821328.
 
-use super::batch::Pending;
+use super::waiting::Waiting;
 use super::{
     Batch, Best, BoundsRule, Incumbent, Optimizer, OptimizerError, OptimizerState, Outcome, PerGoalMethod, Provenance,
     SearchSpace, StopReason,
@@ -25,7 +25,6 @@ use crate::range::above;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-const NAME: &str = "de";
 /// Version of [`Memory`]; changes when its meaning does.
 const STATE_VERSION: u32 = 1;
 
@@ -53,16 +52,16 @@ impl Method for DeSpec {
 
 impl PerGoalMethod for DeSpec {
     fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        OptimizerError::check(NAME, self)?;
+        OptimizerError::check(Self::NAME, self)?;
         let memory = Memory::new(self.population as usize, &space, seed, goal);
-        Ok(Box::new(Search { spec: self.clone(), space, memory, handed: 0 }))
+        Ok(Box::new(Search { spec: self.clone(), space, memory }))
     }
 
     fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        OptimizerError::check(NAME, self)?;
-        let memory: Memory = state.read(NAME)?;
+        OptimizerError::check(Self::NAME, self)?;
+        let memory: Memory = state.read(Self::NAME)?;
         memory.check(self.population as usize, &space)?;
-        Ok(Box::new(Search { spec: self.clone(), space, memory, handed: 0 }))
+        Ok(Box::new(Search { spec: self.clone(), space, memory }))
     }
 }
 
@@ -81,7 +80,7 @@ struct Memory {
     challenger_fitness: Vec<f64>,
     /// For each challenger the member its differences were added to.
     bases: Vec<usize>,
-    waiting: Vec<Pending>,
+    waiting: Waiting,
     next_id: u64,
     /// 0 while the first members are evaluated, as challengers of nobody.
     generation: u64,
@@ -95,8 +94,6 @@ struct Search {
     spec: DeSpec,
     space: SearchSpace,
     memory: Memory,
-    /// How many of `memory.waiting` were handed out since start or resume.
-    handed: usize,
 }
 
 impl Memory {
@@ -113,7 +110,7 @@ impl Memory {
             challengers: drawn,
             challenger_fitness: vec![f64::INFINITY; population],
             bases: (0..population).collect(),
-            waiting: (0..population).map(|slot| Pending { id: slot as u64, slot }).collect(),
+            waiting: Waiting::first(population),
             next_id: population as u64,
             generation: 0,
             last_change: 0,
@@ -125,7 +122,7 @@ impl Memory {
     /// Whether this memory was saved from a search of that shape.
     fn check(&self, population: usize, space: &SearchSpace) -> Result<(), OptimizerError> {
         if self.version != STATE_VERSION {
-            return Err(OptimizerError::Version { method: NAME, found: self.version, expected: STATE_VERSION });
+            return Err(OptimizerError::Version { method: DeSpec::NAME, found: self.version, expected: STATE_VERSION });
         }
         let (genes, best) = (space.lower.len(), self.best.as_ref());
         for (what, found, expected) in [
@@ -134,12 +131,12 @@ impl Memory {
             ("genes", self.members.len(), population * genes),
             ("challengers' genes", self.challengers.len(), population * genes),
             ("bases", self.bases.iter().filter(|base| **base < population).count(), population),
-            ("waiting vectors", self.waiting.iter().filter(|w| w.slot < population).count(), self.waiting.len()),
+            ("waiting vectors", self.waiting.within(population), self.waiting.len()),
             ("genes of the best", best.map_or(genes, |best| best.joints.len()), genes),
             ("features of the best", best.map_or(space.features, |best| best.observation.len()), space.features),
         ] {
             if found != expected {
-                return Err(OptimizerError::Shape { method: NAME, what, found, expected });
+                return Err(OptimizerError::Shape { method: DeSpec::NAME, what, found, expected });
             }
         }
         Ok(())
@@ -152,7 +149,7 @@ impl Search {
         slot * genes..(slot + 1) * genes
     }
 
-    /// Makes a challenger of member `slot`, which then waits for its fitness, next in turn.
+    /// Makes a challenger of member `slot`.
     fn challenge(&mut self, slot: usize) {
         let (genes, population) = (self.space.lower.len(), self.spec.population as usize);
         let own = self.row(slot);
@@ -174,27 +171,21 @@ impl Search {
             memory.challengers[own.start + gene] = if takes { bounded } else { kept };
         }
         memory.bases[slot] = a;
-        self.wait(slot);
-    }
-
-    fn wait(&mut self, slot: usize) {
-        let memory = &mut self.memory;
         memory.challenger_fitness[slot] = f64::INFINITY;
-        memory.waiting.insert(self.handed, Pending { id: memory.next_id, slot });
-        memory.next_id += 1;
     }
 
-    /// After a rejection: another vector in its place, made in the same way.
+    /// Replaces a rejected vector by another, made in the same way and next in turn.
     fn again(&mut self, slot: usize) {
         if self.memory.generation > 0 {
-            return self.challenge(slot);
+            self.challenge(slot);
+        } else {
+            for gene in 0..self.space.lower.len() {
+                let drawn = self.memory.rng.between(self.space.lower[gene], self.space.upper[gene]);
+                let place = self.row(slot).start + gene;
+                self.memory.challengers[place] = drawn;
+            }
         }
-        for gene in 0..self.space.lower.len() {
-            let drawn = self.memory.rng.between(self.space.lower[gene], self.space.upper[gene]);
-            let place = self.row(slot).start + gene;
-            self.memory.challengers[place] = drawn;
-        }
-        self.wait(slot);
+        self.memory.waiting.push_next(&mut self.memory.next_id, slot);
     }
 
     /// Remembers the best: executed ones before penalties, the earlier told among equals.
@@ -228,10 +219,9 @@ impl Search {
         }
         self.memory.generation += 1;
         for slot in 0..self.spec.population as usize {
-            self.handed = self.memory.waiting.len();
             self.challenge(slot);
+            self.memory.waiting.push(&mut self.memory.next_id, slot);
         }
-        self.handed = 0;
     }
 }
 
@@ -240,17 +230,11 @@ impl Optimizer for Search {
         if self.memory.stop.is_some() {
             return;
         }
-        while !batch.is_full() && self.handed < self.memory.waiting.len() {
-            let Pending { id, slot } = self.memory.waiting[self.handed];
-            batch.push(id, &self.memory.challengers[self.row(slot)]);
-            self.handed += 1;
-        }
+        self.memory.waiting.hand_out(batch, &self.memory.challengers, self.space.lower.len());
     }
 
     fn tell(&mut self, id: u64, outcome: Outcome<'_>) {
-        let Some(position) = self.memory.waiting.iter().position(|w| w.id == id) else { return };
-        let slot = self.memory.waiting.remove(position).slot;
-        self.handed -= usize::from(position < self.handed);
+        let Some(slot) = self.memory.waiting.remove(id) else { return };
         match outcome {
             Outcome::Observed { fitness, observation, provenance } => {
                 self.memory.challenger_fitness[slot] = fitness;
@@ -282,7 +266,7 @@ impl Optimizer for Search {
     }
 
     fn state(&self) -> OptimizerState {
-        OptimizerState::of(NAME, &self.memory)
+        OptimizerState::of(DeSpec::NAME, &self.memory)
     }
 
     fn generation(&self) -> u64 {
@@ -290,14 +274,13 @@ impl Optimizer for Search {
     }
 
     fn origins(&self, id: u64) -> [Option<&[f64]>; 2] {
-        let waiting = self.memory.waiting.iter().find(|w| w.id == id);
-        let bred = waiting.filter(|_| self.memory.generation > 0);
+        let bred = self.memory.waiting.slot(id).filter(|_| self.memory.generation > 0);
         let member = |slot: usize| &self.memory.members[self.row(slot)];
-        [bred.map(|w| member(w.slot)), bred.map(|w| member(self.memory.bases[w.slot]))]
+        [bred.map(member), bred.map(|slot| member(self.memory.bases[slot]))]
     }
 
     fn amend(&mut self, id: u64, joints: &[f64]) {
-        if let Some(slot) = self.memory.waiting.iter().find(|w| w.id == id).map(|w| w.slot) {
+        if let Some(slot) = self.memory.waiting.slot(id) {
             let own = self.row(slot);
             self.memory.challengers[own].copy_from_slice(joints);
         }

@@ -40,7 +40,7 @@ struct Inheritance {
 }
 
 impl Estimator for Inheritance {
-    const METHOD: &'static str = "fi_pso";
+    const METHOD: &'static str = FiPsoSpec::NAME;
     const PROVENANCE: Provenance = Provenance::Inherited;
 
     fn depends_on_order(&self) -> bool {
@@ -59,7 +59,7 @@ impl Estimator for Inheritance {
     }
     fn executed(&mut self, _: &[f64], _: f64) {}
     fn save(&self, swarm: SwarmState) -> OptimizerState {
-        OptimizerState::of("fi_pso", &swarm)
+        OptimizerState::of(FiPsoSpec::NAME, &swarm)
     }
 }
 
@@ -70,7 +70,7 @@ fn inherited(flight: &Flight<'_>) -> f64 {
 }
 
 fn estimator(spec: &FiPsoSpec) -> Result<Inheritance, OptimizerError> {
-    OptimizerError::check("fi_pso", spec)?;
+    OptimizerError::check(FiPsoSpec::NAME, spec)?;
     Ok(Inheritance { probability: spec.inheritance_probability, may_win: spec.unexecuted_may_win })
 }
 
@@ -80,7 +80,7 @@ impl PerGoalMethod for FiPsoSpec {
     }
 
     fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        Ok(Box::new(Swarm::resume(&self.swarm, estimator(self)?, space, state.read("fi_pso")?)?))
+        Ok(Box::new(Swarm::resume(&self.swarm, estimator(self)?, space, state.read(Self::NAME)?)?))
     }
 
     fn unexecuted_may_win(&self) -> bool {

@@ -20,6 +20,7 @@ mod pso;
 mod sst;
 mod state;
 mod swarm;
+mod waiting;
 
 pub use affg_pso::{AffgPsoSpec, AffgState};
 pub use batch::Batch;

@@ -29,7 +29,7 @@ impl Method for PsoSpec {
 struct Execute;
 
 impl Estimator for Execute {
-    const METHOD: &'static str = "pso";
+    const METHOD: &'static str = PsoSpec::NAME;
     const PROVENANCE: Provenance = Provenance::Inherited;
 
     fn depends_on_order(&self) -> bool {
@@ -44,7 +44,7 @@ impl Estimator for Execute {
     }
     fn executed(&mut self, _: &[f64], _: f64) {}
     fn save(&self, swarm: SwarmState) -> OptimizerState {
-        OptimizerState::of("pso", &swarm)
+        OptimizerState::of(PsoSpec::NAME, &swarm)
     }
 }
 
@@ -54,6 +54,6 @@ impl PerGoalMethod for PsoSpec {
     }
 
     fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        Ok(Box::new(Swarm::resume(&self.swarm, Execute, space, state.read("pso")?)?))
+        Ok(Box::new(Swarm::resume(&self.swarm, Execute, space, state.read(Self::NAME)?)?))
     }
 }

@@ -40,7 +40,7 @@ struct Granulation {
 }
 
 impl Estimator for Granulation {
-    const METHOD: &'static str = "affg_pso";
+    const METHOD: &'static str = AffgPsoSpec::NAME;
     const PROVENANCE: Provenance = Provenance::Granule;
 
     fn depends_on_order(&self) -> bool {
@@ -60,7 +60,10 @@ impl Estimator for Granulation {
         self.granules.add(&self.spec, x, fitness);
     }
     fn save(&self, swarm: SwarmState) -> OptimizerState {
-        OptimizerState::of("affg_pso", &AffgState { swarm, granules: self.granules.clone(), threshold: self.threshold })
+        OptimizerState::of(
+            Self::METHOD,
+            &AffgState { swarm, granules: self.granules.clone(), threshold: self.threshold },
+        )
     }
 }
 
@@ -75,17 +78,17 @@ fn threshold(alpha: f64, fitness: &[f64]) -> f64 {
 
 impl PerGoalMethod for AffgPsoSpec {
     fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        OptimizerError::check("affg_pso", self)?;
+        OptimizerError::check(Self::NAME, self)?;
         let granulation = Granulation { spec: self.clone(), granules: Granules::default(), threshold: UNREACHABLE };
         Ok(Box::new(Swarm::new(&self.swarm, granulation, space, seed, goal)?))
     }
 
     fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        OptimizerError::check("affg_pso", self)?;
-        let state: AffgState = state.read("affg_pso")?;
+        OptimizerError::check(Self::NAME, self)?;
+        let state: AffgState = state.read(Self::NAME)?;
         if !state.granules.fit(space.lower.len()) {
             let expected = space.lower.len();
-            return Err(OptimizerError::Shape { method: "affg_pso", what: "granule genes", found: 0, expected });
+            return Err(OptimizerError::Shape { method: Self::NAME, what: "granule genes", found: 0, expected });
         }
         let granulation = Granulation { spec: self.clone(), granules: state.granules, threshold: state.threshold };
         Ok(Box::new(Swarm::resume(&self.swarm, granulation, space, state.swarm)?))

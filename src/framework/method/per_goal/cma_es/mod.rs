@@ -26,7 +26,6 @@ mod weights;
 pub use spec::CmaEsSpec;
 pub use state::CmaEsState;
 
-use super::batch::Pending;
 use super::incumbent::Incumbent;
 use super::{
     Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, PerGoalMethod, Provenance, SearchSpace, StopReason,
@@ -46,8 +45,6 @@ pub struct CmaEs {
     axes: Option<Axes>,
     /// The distribution's mean then, rad or m.
     mean: Vec<f64>,
-    /// How many of `state.waiting` were handed out since start or resume.
-    handed: usize,
 }
 
 impl CmaEs {
@@ -56,7 +53,7 @@ impl CmaEs {
     /// # Errors
     /// [`OptimizerError::Parameter`] for a parameter out of its range.
     pub fn new(spec: &CmaEsSpec, space: SearchSpace, seed: u64, stream: u64) -> Result<Self, OptimizerError> {
-        OptimizerError::check("cma_es", spec)?;
+        OptimizerError::check(CmaEsSpec::NAME, spec)?;
         let mut rng = RandomStream::new(seed, stream);
         let near = spec.warm_step.zip(space.near.as_deref());
         let warm = near.map(|(step, near)| Distribution::new(scaled(&space, near), step));
@@ -72,7 +69,7 @@ impl CmaEs {
     /// # Errors
     /// [`OptimizerError`] if the state's version or shape does not fit.
     pub fn resume(spec: &CmaEsSpec, space: SearchSpace, state: CmaEsState) -> Result<Self, OptimizerError> {
-        OptimizerError::check("cma_es", spec)?;
+        OptimizerError::check(CmaEsSpec::NAME, spec)?;
         state.check(spec.lambda(space.lower.len(), state.restarts), &space)?;
         Ok(Self::with(spec, space, state))
     }
@@ -86,7 +83,6 @@ impl CmaEs {
             space,
             state,
             axes: None,
-            handed: 0,
         };
         search.prepare();
         search
@@ -118,10 +114,8 @@ impl CmaEs {
         for slot in 0..lambda {
             let joints = self.candidate();
             self.state.joints.extend(joints);
-            self.state.waiting.push(Pending { id: self.state.next_id, slot });
-            self.state.next_id += 1;
+            self.state.waiting.push(&mut self.state.next_id, slot);
         }
-        self.handed = 0;
     }
 
     fn candidate(&mut self) -> Vec<f64> {
@@ -204,7 +198,7 @@ impl PerGoalMethod for CmaEsSpec {
     }
 
     fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        Ok(Box::new(CmaEs::resume(self, space, state.read("cma_es")?)?))
+        Ok(Box::new(CmaEs::resume(self, space, state.read(Self::NAME)?)?))
     }
 }
 
@@ -213,17 +207,11 @@ impl Optimizer for CmaEs {
         if self.state.stop.is_some() {
             return;
         }
-        while !batch.is_full() && self.handed < self.state.waiting.len() {
-            let Pending { id, slot } = self.state.waiting[self.handed];
-            batch.push(id, self.joints(slot));
-            self.handed += 1;
-        }
+        self.state.waiting.hand_out(batch, &self.state.joints, self.space.lower.len());
     }
 
     fn tell(&mut self, id: u64, outcome: Outcome<'_>) {
-        let Some(position) = self.state.waiting.iter().position(|w| w.id == id) else { return };
-        let slot = self.state.waiting.remove(position).slot;
-        self.handed -= usize::from(position < self.handed);
+        let Some(slot) = self.state.waiting.remove(id) else { return };
         match outcome {
             Outcome::Observed { fitness, observation, provenance } => {
                 self.observed(slot, fitness, observation, provenance);
@@ -241,8 +229,7 @@ impl Optimizer for CmaEs {
                 let joints = self.candidate();
                 let n = joints.len();
                 self.state.joints[slot * n..(slot + 1) * n].copy_from_slice(&joints);
-                self.state.waiting.insert(self.handed, Pending { id: self.state.next_id, slot });
-                self.state.next_id += 1;
+                self.state.waiting.push_next(&mut self.state.next_id, slot);
                 return;
             }
         }
@@ -260,7 +247,7 @@ impl Optimizer for CmaEs {
     }
 
     fn state(&self) -> OptimizerState {
-        OptimizerState::of("cma_es", &self.state)
+        OptimizerState::of(CmaEsSpec::NAME, &self.state)
     }
 
     fn generation(&self) -> u64 {
@@ -269,12 +256,12 @@ impl Optimizer for CmaEs {
 
     fn origins(&self, id: u64) -> [Option<&[f64]>; 2] {
         let random = self.state.generation == self.state.began && !self.state.warm;
-        let asked = self.state.waiting.iter().any(|w| w.id == id);
+        let asked = self.state.waiting.slot(id).is_some();
         [(asked && !random).then_some(self.mean.as_slice()), None]
     }
 
     fn amend(&mut self, id: u64, joints: &[f64]) {
-        if let Some(slot) = self.state.waiting.iter().find(|w| w.id == id).map(|w| w.slot) {
+        if let Some(slot) = self.state.waiting.slot(id) {
             let n = joints.len();
             self.state.joints[slot * n..(slot + 1) * n].copy_from_slice(joints);
         }

@@ -1,9 +1,10 @@
 //! What a CMA-ES remembers; saved and resumed as it is.
 
 use super::distribution::Distribution;
+use super::spec::CmaEsSpec;
 use crate::infinite_as_null;
-use crate::method::per_goal::batch::Pending;
 use crate::method::per_goal::incumbent::Incumbent;
+use crate::method::per_goal::waiting::Waiting;
 use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
@@ -23,7 +24,7 @@ pub struct CmaEsState {
     /// Infinite where not told or failed.
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
-    pub(super) waiting: Vec<Pending>,
+    pub(super) waiting: Waiting,
     pub(super) next_id: u64,
     pub(super) generation: u64,
     /// The generation in which the present search began, and the one in which it last improved.
@@ -46,7 +47,7 @@ impl CmaEsState {
             distribution,
             joints: Vec::new(),
             fitness: Vec::new(),
-            waiting: Vec::new(),
+            waiting: Waiting::default(),
             next_id: 0,
             generation: 0,
             began: 0,
@@ -75,7 +76,7 @@ impl CmaEsState {
     pub(super) fn check(&self, lambda: usize, space: &SearchSpace) -> Result<(), OptimizerError> {
         if self.version != STATE_VERSION {
             let (found, expected) = (self.version, STATE_VERSION);
-            return Err(OptimizerError::Version { method: "cma_es", found, expected });
+            return Err(OptimizerError::Version { method: CmaEsSpec::NAME, found, expected });
         }
         let n = space.lower.len();
         let hall = self.hall.as_ref();
@@ -85,12 +86,12 @@ impl CmaEsState {
             ("genes of the mean", self.distribution.mean.len(), n),
             ("covariances", self.distribution.covariance.len(), n * n),
             ("genes of a path", self.distribution.path_sigma.len().max(self.distribution.path_c.len()), n),
-            ("waiting candidates", self.waiting.iter().filter(|w| w.slot < lambda).count(), self.waiting.len()),
+            ("waiting candidates", self.waiting.within(lambda), self.waiting.len()),
             ("genes of the best", hall.map_or(n, |h| h.joints.len()), n),
             ("features of the best", hall.map_or(space.features, |h| h.observation.len()), space.features),
         ] {
             if found != expected {
-                return Err(OptimizerError::Shape { method: "cma_es", what, found, expected });
+                return Err(OptimizerError::Shape { method: CmaEsSpec::NAME, what, found, expected });
             }
         }
         Ok(())

@@ -19,7 +19,6 @@ mod tests;
 pub use spec::SstSpec;
 pub use state::SstState;
 
-use super::batch::Pending;
 use super::incumbent::Incumbent;
 use super::{
     Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, PerGoalMethod, Provenance, SearchSpace, StopReason,
@@ -33,8 +32,6 @@ pub struct Sst {
     spec: SstSpec,
     space: SearchSpace,
     state: SstState,
-    /// How many of `state.waiting` were handed out since start or resume.
-    handed: usize,
 }
 
 impl Sst {
@@ -43,7 +40,7 @@ impl Sst {
     /// # Errors
     /// [`OptimizerError::Parameter`] for a population below 3 or a probability outside 0 to 1.
     pub fn new(spec: &SstSpec, space: SearchSpace, seed: u64, stream: u64) -> Result<Self, OptimizerError> {
-        OptimizerError::check("sst", spec)?;
+        OptimizerError::check(SstSpec::NAME, spec)?;
         let state = SstState::new(spec.population as usize, &space, seed, stream);
         Ok(Self::with(spec, space, state))
     }
@@ -53,13 +50,13 @@ impl Sst {
     /// # Errors
     /// [`OptimizerError`] if the state's version or shape does not fit.
     pub fn resume(spec: &SstSpec, space: SearchSpace, state: SstState) -> Result<Self, OptimizerError> {
-        OptimizerError::check("sst", spec)?;
+        OptimizerError::check(SstSpec::NAME, spec)?;
         state.check(spec.population as usize, &space)?;
         Ok(Self::with(spec, space, state))
     }
 
     fn with(spec: &SstSpec, space: SearchSpace, state: SstState) -> Self {
-        Self { spec: spec.clone(), space, state, handed: 0 }
+        Self { spec: spec.clone(), space, state }
     }
 
     /// Overwrites the worst of three by a child of the other two, which then waits for its fitness.
@@ -108,9 +105,7 @@ impl Sst {
                 }
             }
         }
-        state.waiting.push(Pending { id: state.next_id, slot });
-        state.next_id += 1;
-        self.handed = 0;
+        state.waiting.push(&mut state.next_id, slot);
     }
 
     /// Incumbent of fame and stop rules; `state.generation` is the one that ends.
@@ -170,8 +165,7 @@ impl Sst {
         for (gene, value) in state.joints[own].iter_mut().enumerate() {
             *value = state.rng.between(self.space.lower[gene], self.space.upper[gene]);
         }
-        state.waiting.insert(self.handed, Pending { id: state.next_id, slot });
-        state.next_id += 1;
+        state.waiting.push_next(&mut state.next_id, slot);
     }
 }
 
@@ -181,7 +175,7 @@ impl PerGoalMethod for SstSpec {
     }
 
     fn resume(&self, space: SearchSpace, state: OptimizerState) -> Result<Box<dyn Optimizer>, OptimizerError> {
-        Ok(Box::new(Sst::resume(self, space, state.read("sst")?)?))
+        Ok(Box::new(Sst::resume(self, space, state.read(Self::NAME)?)?))
     }
 }
 
@@ -193,18 +187,11 @@ impl Optimizer for Sst {
         if self.state.waiting.is_empty() {
             self.breed();
         }
-        let genes = self.space.lower.len();
-        while !batch.is_full() && self.handed < self.state.waiting.len() {
-            let Pending { id, slot } = self.state.waiting[self.handed];
-            batch.push(id, &self.state.joints[slot * genes..(slot + 1) * genes]);
-            self.handed += 1;
-        }
+        self.state.waiting.hand_out(batch, &self.state.joints, self.space.lower.len());
     }
 
     fn tell(&mut self, id: u64, outcome: Outcome<'_>) {
-        let Some(position) = self.state.waiting.iter().position(|w| w.id == id) else { return };
-        let slot = self.state.waiting.remove(position).slot;
-        self.handed -= usize::from(position < self.handed);
+        let Some(slot) = self.state.waiting.remove(id) else { return };
         let features = self.space.features;
         match outcome {
             Outcome::Observed { fitness, observation, provenance } => {
@@ -248,7 +235,7 @@ impl Optimizer for Sst {
 
     fn state(&self) -> OptimizerState {
         debug_assert_eq!(self.state.version, STATE_VERSION);
-        OptimizerState::of("sst", &self.state)
+        OptimizerState::of(SstSpec::NAME, &self.state)
     }
 
     fn generation(&self) -> u64 {
@@ -257,13 +244,13 @@ impl Optimizer for Sst {
 
     fn origins(&self, id: u64) -> [Option<&[f64]>; 2] {
         let genes = self.space.lower.len();
-        let bred = self.state.generation > 0 && self.state.waiting.iter().any(|w| w.id == id);
+        let bred = self.state.generation > 0 && self.state.waiting.slot(id).is_some();
         let parent = |index: usize| bred.then(|| &self.state.family[index * genes..(index + 1) * genes]);
         [parent(1), parent(2)]
     }
 
     fn amend(&mut self, id: u64, joints: &[f64]) {
-        if let Some(slot) = self.state.waiting.iter().find(|w| w.id == id).map(|w| w.slot) {
+        if let Some(slot) = self.state.waiting.slot(id) {
             let genes = self.space.lower.len();
             self.state.joints[slot * genes..(slot + 1) * genes].copy_from_slice(joints);
         }

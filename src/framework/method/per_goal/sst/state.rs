@@ -1,8 +1,9 @@
 //! What a steady-state tournament remembers; saved and resumed as it is.
 
+use super::spec::SstSpec;
 use crate::infinite_as_null;
-use crate::method::per_goal::batch::Pending;
 use crate::method::per_goal::incumbent::Incumbent;
+use crate::method::per_goal::waiting::Waiting;
 use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
@@ -22,7 +23,7 @@ pub struct SstState {
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
     pub(super) provenance: Vec<Provenance>,
-    pub(super) waiting: Vec<Pending>,
+    pub(super) waiting: Waiting,
     /// While a child waits: the n genes it overwrote, then those of its two parents.
     pub(super) family: Vec<f64>,
     pub(super) next_id: u64,
@@ -45,7 +46,7 @@ impl SstState {
             observations: vec![0.0; population * space.features],
             fitness: vec![f64::INFINITY; population],
             provenance: vec![Provenance::Penalised; population],
-            waiting: (0..population).map(|slot| Pending { id: slot as u64, slot }).collect(),
+            waiting: Waiting::first(population),
             family: vec![0.0; 3 * space.lower.len()],
             next_id: population as u64,
             generation: 0,
@@ -59,16 +60,19 @@ impl SstState {
     /// Whether this state was saved from a search of that shape.
     pub(super) fn check(&self, population: usize, space: &SearchSpace) -> Result<(), OptimizerError> {
         if self.version != STATE_VERSION {
-            return Err(OptimizerError::Version { method: "sst", found: self.version, expected: STATE_VERSION });
+            return Err(OptimizerError::Version {
+                method: SstSpec::NAME,
+                found: self.version,
+                expected: STATE_VERSION,
+            });
         }
-        let slots = self.waiting.iter().filter(|w| w.slot < population).count();
         for (what, found, expected) in [
             ("fitness values", self.fitness.len(), population),
             ("provenances", self.provenance.len(), population),
             ("genes", self.joints.len(), population * space.lower.len()),
             ("observed values", self.observations.len(), population * space.features),
             ("genes of a family", self.family.len(), 3 * space.lower.len()),
-            ("waiting individuals", slots, self.waiting.len()),
+            ("waiting individuals", self.waiting.within(population), self.waiting.len()),
             ("genes of the best", self.hall.as_ref().map_or(space.lower.len(), |h| h.joints.len()), space.lower.len()),
             (
                 "features of the best",
@@ -77,7 +81,7 @@ impl SstState {
             ),
         ] {
             if found != expected {
-                return Err(OptimizerError::Shape { method: "sst", what, found, expected });
+                return Err(OptimizerError::Shape { method: SstSpec::NAME, what, found, expected });
             }
         }
         Ok(())

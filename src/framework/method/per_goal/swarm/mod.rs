@@ -20,7 +20,6 @@ mod tests;
 pub use spec::{Leader, SwarmSpec, VelocityClamp};
 pub use state::SwarmState;
 
-use super::batch::Pending;
 use super::incumbent::Incumbent;
 use super::{
     Batch, Best, Optimizer, OptimizerError, OptimizerState, Outcome, Provenance, SearchSpace, StopReason, Tally,
@@ -70,8 +69,6 @@ pub(super) struct Swarm<E> {
     space: SearchSpace,
     state: SwarmState,
     estimator: E,
-    /// How many of `state.waiting` were handed out since start or resume.
-    handed: usize,
 }
 
 impl<E: Estimator> Swarm<E> {
@@ -84,7 +81,7 @@ impl<E: Estimator> Swarm<E> {
     ) -> Result<Self, OptimizerError> {
         OptimizerError::check(E::METHOD, spec)?;
         let state = SwarmState::new(spec, &space, seed, stream);
-        Ok(Self { spec: spec.clone(), space, state, estimator, handed: 0 })
+        Ok(Self { spec: spec.clone(), space, state, estimator })
     }
 
     pub fn resume(
@@ -95,7 +92,7 @@ impl<E: Estimator> Swarm<E> {
     ) -> Result<Self, OptimizerError> {
         OptimizerError::check(E::METHOD, spec)?;
         state.check(E::METHOD, spec.population as usize, &space)?;
-        Ok(Self { spec: spec.clone(), space, state, estimator, handed: 0 })
+        Ok(Self { spec: spec.clone(), space, state, estimator })
     }
 
     fn row(&self, slot: usize) -> std::ops::Range<usize> {
@@ -143,8 +140,7 @@ impl<E: Estimator> Swarm<E> {
             }
             return;
         }
-        state.waiting.insert(self.handed, Pending { id: state.next_id, slot });
-        state.next_id += 1;
+        state.waiting.push_next(&mut state.next_id, slot);
     }
 
     /// Incumbent of fame, stop rules, and the start of the next generation, if every particle has its fitness.
@@ -229,8 +225,7 @@ impl<E: Estimator> Swarm<E> {
                 state.memory[place] = drawn;
             }
         }
-        state.waiting.insert(self.handed, Pending { id: state.next_id, slot });
-        state.next_id += 1;
+        state.waiting.push_next(&mut state.next_id, slot);
     }
 }
 
@@ -238,9 +233,8 @@ impl<E: Estimator> Optimizer for Swarm<E> {
     fn ask(&mut self, batch: &mut Batch) {
         let ahead = self.spec.leader == Leader::BestMemory && !self.estimator.depends_on_order();
         while self.state.stop.is_none() && !batch.is_full() {
-            if let Some(&Pending { id, slot }) = self.state.waiting.get(self.handed) {
-                batch.push(id, &self.state.x[self.row(slot)]);
-                self.handed += 1;
+            if self.state.waiting.has_more() {
+                self.state.waiting.hand_out(batch, &self.state.x, self.space.lower.len());
                 continue;
             }
             let all_moved = self.state.generation == 0 || self.state.moved == self.spec.population as usize;
@@ -255,9 +249,7 @@ impl<E: Estimator> Optimizer for Swarm<E> {
     }
 
     fn tell(&mut self, id: u64, outcome: Outcome<'_>) {
-        let Some(at) = self.state.waiting.iter().position(|w| w.id == id) else { return };
-        let slot = self.state.waiting.remove(at).slot;
-        self.handed -= usize::from(at < self.handed);
+        let Some(slot) = self.state.waiting.remove(id) else { return };
         let (own, features) = (self.row(slot), self.space.features);
         let state = &mut self.state;
         match outcome {
@@ -304,13 +296,12 @@ impl<E: Estimator> Optimizer for Swarm<E> {
     }
 
     fn origins(&self, id: u64) -> [Option<&[f64]>; 2] {
-        let waiting = self.state.waiting.iter().find(|w| w.id == id);
-        let moved = waiting.filter(|_| self.state.generation > 0);
-        [moved.map(|w| &self.state.x_before[self.row(w.slot)]), None]
+        let moved = self.state.waiting.slot(id).filter(|_| self.state.generation > 0);
+        [moved.map(|slot| &self.state.x_before[self.row(slot)]), None]
     }
 
     fn amend(&mut self, id: u64, joints: &[f64]) {
-        let Some(slot) = self.state.waiting.iter().find(|w| w.id == id).map(|w| w.slot) else { return };
+        let Some(slot) = self.state.waiting.slot(id) else { return };
         let own = self.row(slot);
         let state = &mut self.state;
         state.x[own.clone()].copy_from_slice(joints);

@@ -3,8 +3,8 @@
 use super::movement::limited;
 use super::spec::SwarmSpec;
 use crate::infinite_as_null;
-use crate::method::per_goal::batch::Pending;
 use crate::method::per_goal::incumbent::Incumbent;
+use crate::method::per_goal::waiting::Waiting;
 use crate::method::per_goal::{OptimizerError, Provenance, SearchSpace, StopReason, Tally};
 use crate::random::RandomStream;
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub struct SwarmState {
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
     pub(super) provenance: Vec<Provenance>,
-    pub(super) waiting: Vec<Pending>,
+    pub(super) waiting: Waiting,
     pub(super) next_id: u64,
     /// 0 while the first positions are evaluated.
     pub(super) generation: u64,
@@ -74,7 +74,7 @@ impl SwarmState {
             observations: vec![0.0; population * space.features],
             fitness: vec![f64::INFINITY; population],
             provenance: vec![Provenance::Penalised; population],
-            waiting: (0..population).map(|slot| Pending { id: slot as u64, slot }).collect(),
+            waiting: Waiting::first(population),
             next_id: population as u64,
             generation: 0,
             moved: 0,
@@ -96,7 +96,6 @@ impl SwarmState {
             return Err(OptimizerError::Version { method, found: self.version, expected: STATE_VERSION });
         }
         let (genes, features) = (space.lower.len(), space.features);
-        let slots = self.waiting.iter().filter(|w| w.slot < population).count();
         for (what, found, expected) in [
             ("fitness values", self.fitness.len(), population),
             ("remembered fitness values", self.memory_fitness.len(), population),
@@ -107,7 +106,7 @@ impl SwarmState {
             ("earlier velocities", self.v_before.len(), population * genes),
             ("remembered genes", self.memory.len(), population * genes),
             ("observed values", self.observations.len(), population * features),
-            ("waiting particles", slots, self.waiting.len()),
+            ("waiting particles", self.waiting.within(population), self.waiting.len()),
             ("moved particles", self.moved.min(population), self.moved),
             ("genes of the best", self.hall.as_ref().map_or(genes, |h| h.joints.len()), genes),
             ("features of the best", self.hall.as_ref().map_or(features, |h| h.observation.len()), features),
