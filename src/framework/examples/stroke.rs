@@ -53,6 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let found = run(&problem, 1)?;
     eprintln!("{} trials, discrepancy {:.4} m", found.evaluations, found.discrepancy);
+    // A smoke check with room to spare; the tests of the crate hold exact figures.
     assert!(found.evaluations < 40 && found.discrepancy < 0.1);
 
     // A trajectory within the limits of position, velocity and acceleration, ready for a controller.
