@@ -25,9 +25,9 @@ pub struct MethodEntry {
     pub name: &'static str,
     /// Name for people.
     pub label: &'static str,
-    /// What it does and when to take it.
+    /// Purpose: how it works, and the problems it suits.
     pub purpose: String,
-    /// What it is and needs.
+    /// Scope, needs and cost.
     #[serde(flatten)]
     pub profile: Profile,
     /// Its parameters, in the order of a form.
@@ -145,7 +145,7 @@ catalogue! {
     /// Covariance matrix adaptation, begun at the previous goal's result: hundreds of evaluations, for features that jump
     /// or a robot beyond modelling.
     CmaEs(CmaEsSpec) = "cma_es", "CMA-ES", per_goal;
-    /// Differential evolution: thousands of evaluations, for simulation; few parameters, and seldom caught in a valley.
+    /// Differential evolution: tens of thousands of evaluations, for simulation; close to the goals, few parameters.
     De(DeSpec) = "de", "DE", per_goal;
     /// Gauss-Newton with Broyden's Jacobian, carried over from goal to goal, a classical yardstick: few evaluations where
     /// it converges, with some bad runs.
@@ -162,7 +162,7 @@ catalogue! {
 }
 
 impl MethodSpec {
-    /// What the method is and needs.
+    /// Scope, needs and cost of the method.
     #[must_use]
     pub fn profile(&self) -> Profile {
         self.method().profile()
@@ -185,7 +185,7 @@ impl MethodSpec {
     /// Whether the method can work in `world`.
     ///
     /// # Errors
-    /// What it needs instead.
+    /// The property that the world lacks.
     pub fn fits(&self, world: &WorldProperties) -> Result<(), &'static str> {
         self.method().fits(world)
     }
@@ -196,7 +196,7 @@ impl MethodSpec {
         if let Self::Auto(wishes) = self { Some(wishes) } else { None }
     }
 
-    /// Takes what is known of robot and sensors, if the method can use it.
+    /// Adopts knowledge of robot and sensors that the method can use.
     pub fn assume(&mut self, known: &Knowledge) {
         self.method_mut().assume(known);
     }

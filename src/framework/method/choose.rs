@@ -1,7 +1,7 @@
-//! Which method `auto` stands for, and why: a pure function of the problem and of what may be assumed.
+//! Choice of the method that `auto` stands for, with its reason: a pure function of the problem and the wishes.
 //!
 //! The figures behind each branch are those of the shipped presets (three joints, 20 to 50 seeds):
-//! - features that follow the pose: a model takes 14 to 20 evaluations, CMA-ES 920; where evaluations cost nothing, CMA-ES
+//! - features that follow the pose: a model takes 14 to 20 evaluations, CMA-ES 920; if evaluations cost nothing, CMA-ES
 //!   to 0.1 % of the joints' ranges ends 2 mm above what can be reached (146 mm of 144 mm, 2700 evaluations);
 //! - a surface: particles 16 evaluations for 16 cells; the search 182 for 99 % of them; CMA-ES all of them in 437;
 //! - constraints that judge a population, or penalties: CMA-ES 870 evaluations to 209 mm, PSO 5800 to 202 mm, SST 21000

@@ -1,4 +1,4 @@
-//! The contract between a method and the framework: what it is, what it needs, how its parameters are checked.
+//! The contract between a method and the framework: its scope, its needs and the check of its parameters.
 
 use super::parameters::Parameters;
 use crate::range::OutOfRange;
@@ -14,24 +14,24 @@ pub enum Scope {
     PerGoal,
     /// All goals at once: every trial counts for each goal it is near.
     WholeRun,
-    /// It stands for the method that suits the problem.
+    /// Stands for the method that suits the problem.
     Chosen,
 }
 
-/// How features must follow from what the robot does.
+/// Relation between the robot's motion and the features that a method relies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Effects {
-    /// In any way.
+    /// Any relation.
     Any,
-    /// They follow the pose without jumps.
+    /// Features follow the pose without jumps.
     Smooth,
-    /// They accumulate over a surface.
+    /// Features accumulate over a surface.
     Accumulating,
 }
 
-/// How a method uses the description of robot and world.
+/// Use of the description of robot and world as a simulator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -40,36 +40,36 @@ pub enum SimulatorUse {
     Never,
     /// As a first guess, if a parameter says so.
     Optional,
-    /// As a first guess, right or wrong: it cannot work without one.
+    /// As a first guess, which may be wrong; the method cannot work without one.
     Required,
 }
 
-/// What a method needs of a problem.
+/// Needs of a method: the properties a problem must have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Needs {
-    /// How features must follow from what the robot does.
+    /// Relation between motion and features.
     pub effects: Effects,
     /// Whether the world must be put back between trials.
     pub reset: bool,
-    /// How the description of robot and world is used.
+    /// Use of the description of robot and world.
     pub simulator: SimulatorUse,
 }
 
-/// What a method is and needs, whatever its parameters.
+/// Properties of a method that hold for all its parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Profile {
     /// How far it plans.
     pub scope: Scope,
     /// Whether it is made for a real robot, where every evaluation takes time.
     pub few_evaluations: bool,
-    /// Whether it begins with what earlier runs on the same robot taught.
+    /// Whether it starts from the trials of earlier runs on the same robot.
     pub learns_from_earlier_runs: bool,
-    /// What it needs of a problem.
+    /// Needs of the method.
     pub needs: Needs,
 }
 
-/// What may be known of robot and sensors before the first trial; `None` leaves a method as it is.
+/// Knowledge of robot and sensors before the first trial; `None` leaves the method's parameter as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Knowledge {
     /// Whether the description of robot and world may be used as a simulator.
@@ -80,7 +80,7 @@ pub struct Knowledge {
 
 /// The parameters of a method; implemented beside its algorithm.
 pub trait Method: Parameters {
-    /// What the method is and needs.
+    /// Scope, needs and cost of the method.
     fn profile(&self) -> Profile;
 
     /// Whether every parameter is in its range, alone and together with the world.
@@ -95,12 +95,12 @@ pub trait Method: Parameters {
     /// Whether the method can work in `world`.
     ///
     /// # Errors
-    /// What it needs instead.
+    /// The property that the world lacks.
     fn fits(&self, world: &WorldProperties) -> Result<(), &'static str> {
         self.profile().needs.met_by(world)
     }
 
-    /// Takes what is known of robot and sensors, if the method can use it.
+    /// Adopts knowledge of robot and sensors that the method can use.
     fn assume(&mut self, known: &Knowledge) {
         let _ = known;
     }
@@ -108,7 +108,7 @@ pub trait Method: Parameters {
 
 impl Needs {
     /// # Errors
-    /// What is missing.
+    /// The property that the world lacks.
     fn met_by(self, world: &WorldProperties) -> Result<(), &'static str> {
         match self.effects {
             Effects::Smooth if !world.smooth => {

@@ -1,9 +1,9 @@
 //! Methods: how the joints for each goal are found.
 //!
 //! # Architecture Invariants
-//! - A method owns no world: it names candidates and is told what became of them.
-//! - The seed is mandatory; what a method saves holds its random stream, so that it resumes with the same bits.
-//! - A method's file or folder owns its parameters, their check, what it needs of a world, start and resume. The
+//! - A method owns no world: it proposes candidates and receives their outcomes.
+//! - The seed is mandatory; a saved method includes its random stream, so that it resumes with the same bits.
+//! - A method's file or folder owns its parameters, their check, its needs, start and resume. The
 //!   [`catalogue()`] lists them; adding a method is a file and a row there.
 //!
 //! # A method of your own

@@ -20,7 +20,7 @@ pub enum MethodChoice {
 /// Reads a method written either way.
 ///
 /// # Errors
-/// An unknown name, which is told with the known ones, or a parameter that is not the method's.
+/// An unknown name, reported with the known ones, or a parameter that the method does not have.
 pub fn method_or_name<'de, D: Deserializer<'de>>(deserializer: D) -> Result<MethodSpec, D::Error> {
     deserializer.deserialize_any(MethodVisitor)
 }

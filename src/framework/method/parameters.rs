@@ -165,7 +165,7 @@ fn json<T: Serialize>(value: &T) -> Value {
 ///
 /// ```ignore
 /// parameters! {
-///     /// What the struct holds.
+///     /// Contents of the struct.
 ///     pub struct Spec {
 ///         /// One sentence.
 ///         pub radius_m: f64 = 0.1, in 0.0..=1.0, unit "m";
@@ -258,7 +258,7 @@ macro_rules! unit {
     };
 }
 
-/// The range of a declaration: that of all finite numbers where it has none.
+/// The range of a declaration; all finite numbers if it has none.
 macro_rules! range {
     () => {
         $crate::range::Range::default()

@@ -1,19 +1,19 @@
-//! What becomes of a gene outside its limits.
+//! Treatment of a gene outside its limits.
 
 use crate::method::parameters::Choice;
 use serde::{Deserialize, Serialize};
 
-/// What happens to a gene that an operator puts outside its limits.
+/// Treatment of a gene that an operator puts outside its limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum BoundsRule {
-    /// It is put on the nearest limit: every candidate can be executed.
+    /// The gene is set to the nearest limit: every candidate can be executed.
     #[default]
     Clamp,
-    /// It is mirrored at the limit it passed, as often as needed: every candidate can be executed.
+    /// The gene is mirrored at the limit it passed, as often as needed: every candidate can be executed.
     Reflect,
-    /// Nothing, as in the published runs: a pose may be found that the robot cannot take.
+    /// The gene stays outside, as in the published runs: the result may be a pose that the robot cannot take.
     Open,
 }
 
@@ -34,7 +34,7 @@ impl BoundsRule {
                 let width = upper - lower;
                 let folded = (value - lower).rem_euclid(2.0 * width);
                 let inside = lower + if folded > width { 2.0 * width - folded } else { folded };
-                // the width is 0, or rounding left the interval
+                // The width is 0, or rounding left the interval.
                 if inside.is_nan() { lower } else { inside.clamp(lower, upper) }
             }
         }

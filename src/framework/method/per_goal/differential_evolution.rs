@@ -7,7 +7,7 @@
 //!
 //! Invariants:
 //! - `state.waiting` names exactly the vectors without a fitness; a generation is bred when none is waiting.
-//! - All challengers of a generation are bred from the generation before, so that they may be told in any order.
+//! - All challengers of a generation are bred from the previous one, so that their outcomes may come in any order.
 //!
 //! Source: R. Storn, K. Price, "Differential Evolution - A Simple and Efficient Heuristic for Global Optimization over
 //! Continuous Spaces", J. Global Optimization 11 (1997) 341-359, DOI 10.1023/A:1008202821328.
@@ -39,7 +39,7 @@ parameters! {
         pub weight: f64 = 0.7, in above(0.0).up_to(2.0);
         /// CR: probability that a gene is taken from the mixture.
         pub crossover: f64 = 0.9, in 0.0..=1.0;
-        /// What happens to genes outside their limits.
+        /// Treatment of genes outside their limits.
         pub bounds: BoundsRule = BoundsRule::Reflect;
     }
 }
@@ -78,11 +78,11 @@ struct Memory {
     challengers: Vec<f64>,
     #[serde(with = "infinite_as_null")]
     challenger_fitness: Vec<f64>,
-    /// For each challenger the member its differences were added to.
+    /// Per challenger, the member that the difference was added to.
     bases: Vec<usize>,
     waiting: Waiting,
     next_id: u64,
-    /// 0 while the first members are evaluated, as challengers of nobody.
+    /// 0 while the first members are evaluated: they have no rivals yet.
     generation: u64,
     last_change: u64,
     best: Option<Incumbent>,
@@ -188,7 +188,7 @@ impl Search {
         self.memory.waiting.push_next(&mut self.memory.next_id, slot);
     }
 
-    /// Remembers the best: executed ones before penalties, the earlier told among equals.
+    /// Keeps the best: an executed vector beats a penalised one, and the earlier outcome wins a tie.
     fn remember(&mut self, slot: usize, fitness: f64, observation: &[f64], provenance: Provenance) {
         let executed = provenance.is_executed();
         let is_better = |best: &Incumbent| match (executed, best.provenance.is_executed()) {
@@ -203,7 +203,7 @@ impl Search {
         }
     }
 
-    /// Challengers that are no worse take their members' places; then the next generation is bred, unless it stops.
+    /// Lets challengers that are no worse replace their members; then breeds the next generation or stops the search.
     fn end_generation(&mut self) {
         for slot in 0..self.spec.population as usize {
             let own = self.row(slot);

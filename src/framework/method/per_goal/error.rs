@@ -1,9 +1,9 @@
-//! Why a search cannot begin or go on.
+//! Reasons why a search cannot start or resume.
 
 use crate::method::parameters::Parameters;
 use crate::range::OutOfRange;
 
-/// Why a method cannot be run.
+/// Reasons why a method cannot be run.
 #[derive(Debug, thiserror::Error)]
 pub enum OptimizerError {
     /// A parameter out of its range.
@@ -14,8 +14,8 @@ pub enum OptimizerError {
         /// The parameter, its value and its range.
         number: OutOfRange,
     },
-    /// A method that has no search of one goal.
-    #[error("{method} searches for no goal alone: give a method that searches goal after goal")]
+    /// A method that does not search goal by goal.
+    #[error("{method} does not search goal after goal: give a method that does, for example sst")]
     NotPerGoal {
         /// Method name.
         method: &'static str,
@@ -51,7 +51,7 @@ pub enum OptimizerError {
     Shape {
         /// Method name.
         method: &'static str,
-        /// What does not fit.
+        /// Part that does not fit.
         what: &'static str,
         /// Number found.
         found: usize,

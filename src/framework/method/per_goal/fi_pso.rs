@@ -2,8 +2,8 @@
 //!
 //! Symbols: fitness f before the move, of the own memory f_p, of the leader's memory f_g; a = c1 R1, b = c2 R2 of the
 //! move (means over the genes). Inherited: `f + (a (f_p - f) + b (f_g - f)) / (1 + a + b)`, a convex combination: it is
-//! never below the best of the three, so an inherited particle is never strictly better than the executed ones. It is
-//! no evaluation. Where one of the three is not finite the particle is executed.
+//! never below the best of the three, so an inherited particle is never strictly better than the executed ones. It
+//! takes no evaluation. If one of the three is not finite, the particle is executed.
 //!
 //! Source: M. Reyes-Sierra, C. A. Coello Coello, "Fitness inheritance in multi-objective particle swarm optimization",
 //! IEEE Swarm Intelligence Symposium 2005, 116-123 (flight formula in objective space).

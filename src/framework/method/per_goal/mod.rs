@@ -1,9 +1,9 @@
-//! Optimisers behind one ask/tell interface, one algorithm a file.
+//! Optimisers behind one ask/tell interface, one algorithm per file.
 //!
 //! # Architecture Invariants
-//! - An optimiser owns no objective and no world: it names candidates by id and is told what became of them.
+//! - An optimiser owns no objective and no world: it proposes candidates by id and receives their outcomes.
 //! - The seed is mandatory; [`Optimizer::state`] holds everything, the random stream included: a resumed optimiser
-//!   goes on with the same bits.
+//!   continues with the same bits.
 //! - Genes are radians or metres. A failed trial is [`Outcome::Failed`], never NaN.
 
 mod affg_pso;

@@ -5,26 +5,26 @@ use super::error::OptimizerError;
 use super::provenance::{Provenance, StopReason, Tally};
 use super::state::OptimizerState;
 
-/// What became of a candidate.
+/// Outcome of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome<'a> {
-    /// It was executed.
+    /// Executed.
     Observed {
         /// Discrepancy, smaller is better, finite.
         fitness: f64,
         /// The m features seen.
         observation: &'a [f64],
-        /// Where it was executed.
+        /// Place of execution: a simulation or a robot.
         provenance: Provenance,
     },
-    /// It was judged without executing: its fitness is a penalty.
+    /// Judged without being executed: its fitness is a penalty.
     Penalised {
         /// The penalty, finite.
         fitness: f64,
     },
-    /// It may not be executed: another takes its place, made in the same way, as if this one had never been.
+    /// Not allowed to be executed: the optimiser proposes another in its place, made in the same way.
     Rejected,
-    /// It could not be executed or observed.
+    /// Not executed or not observed, because something failed.
     Failed,
 }
 
@@ -37,11 +37,11 @@ pub struct Best<'a> {
     pub fitness: f64,
     /// The m features seen.
     pub observation: &'a [f64],
-    /// Where its fitness comes from.
+    /// Origin of its fitness.
     pub provenance: Provenance,
 }
 
-/// What an optimiser searches in and when it may stop early.
+/// Space that an optimiser searches, and the target at which it may stop early.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SearchSpace {
     /// Lower limit of each gene.
@@ -52,41 +52,41 @@ pub struct SearchSpace {
     pub features: usize,
     /// Discrepancy that is good enough.
     pub target: Option<f64>,
-    /// The previous goal's result (rad or m): where a method that can do so begins.
+    /// The previous goal's result (rad or m), from which some methods start.
     pub near: Option<Vec<f64>>,
 }
 
 /// A search for the joint vector of one goal.
 pub trait Optimizer: Send {
-    /// Adds candidates to `batch` until it is full or none can be named before others are told. Each is named once,
-    /// except after a resume: then those never told are named again, in the same order.
+    /// Adds candidates to `batch` until it is full or the next depends on outcomes still missing. Each candidate is
+    /// proposed once, except after a resume: then those without an outcome are proposed again, in the same order.
     fn ask(&mut self, batch: &mut Batch);
 
-    /// Takes what became of candidate `id`; any subset of the asked, in any order. An id not waited for is ignored:
-    /// it is late news of a candidate told before.
+    /// Takes the outcome of candidate `id`. Outcomes may come in any order; one of an unknown or settled candidate is
+    /// ignored.
     fn tell(&mut self, id: u64, outcome: Outcome<'_>);
 
-    /// The best candidate so far: executed, unless only penalised ones are known or an option lets others win.
+    /// The best candidate so far: an executed one, unless only penalised ones are known or an option lets others win.
     fn best(&self) -> Option<Best<'_>>;
 
-    /// Why the search has ended by its own rules, if it has.
+    /// The reason why the search ended by its own rules; `None` while it goes on.
     fn stop(&self) -> Option<StopReason>;
 
-    /// Everything needed to go on with the same bits.
+    /// Everything needed to continue with the same bits.
     fn state(&self) -> OptimizerState;
 
-    /// Generations ended so far; 0 where a method has none.
+    /// Number of generations completed; 0 for a method without generations.
     fn generation(&self) -> u64 {
         0
     }
 
-    /// The individuals candidate `id` (asked and not told) was bred from; none for a random one.
+    /// The individuals that candidate `id`, still without an outcome, was bred from; none for a random one.
     fn origins(&self, id: u64) -> [Option<&[f64]>; 2];
 
-    /// Candidate `id` (asked and not told) will be executed at `joints` instead.
+    /// Moves candidate `id`, still without an outcome, to `joints`.
     fn amend(&mut self, id: u64, joints: &[f64]);
 
-    /// Fitness values so far that were no evaluations; executions are not counted here.
+    /// Count of fitness values that took no execution; executions are not counted here.
     fn tally(&self) -> Tally {
         Tally::default()
     }
@@ -100,7 +100,7 @@ pub trait PerGoalMethod: Send + Sync {
     /// [`OptimizerError::Parameter`] for a parameter out of its range.
     fn start(&self, space: SearchSpace, seed: u64, goal: u64) -> Result<Box<dyn Optimizer>, OptimizerError>;
 
-    /// Goes on from a saved search of `space`.
+    /// Resumes a saved search of `space`.
     ///
     /// # Errors
     /// [`OptimizerError`] if the state does not fit the method and the space.

@@ -1,8 +1,8 @@
-//! Where fitness values come from, and why a goal ended.
+//! Origin of fitness values, and the reasons why goals end.
 
 use serde::{Deserialize, Serialize};
 
-/// Where a fitness value comes from.
+/// Origin of a fitness value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -27,7 +27,7 @@ impl Provenance {
     }
 }
 
-/// Why a goal ended.
+/// Reason why a goal ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -46,7 +46,7 @@ pub enum StopReason {
     OutOfReach,
 }
 
-/// Where fitness values come from and what was done about infeasible candidates, by count.
+/// Counts of fitness values by origin, and of the ways infeasible candidates were handled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Tally {

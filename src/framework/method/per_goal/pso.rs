@@ -1,7 +1,7 @@
 //! PSO, particle swarm optimisation: every moved particle is executed.
 //!
-//! The published runs used ECF's swarm with w = 1.2, |v| <= 5 degrees a generation, open positions, C1 = C2 = 2, one
-//! random pair a particle, the currently best particle as leader, and memories that begin at random near 0: all named
+//! The published runs used ECF's swarm with w = 1.2, |v| <= 5 degrees per generation, open positions, C1 = C2 = 2, one
+//! random pair per particle, the currently best particle as leader, and memories that begin at random near 0: all named
 //! options of [`SwarmSpec`]. Movement and sources: the swarm's `movement` module.
 
 use super::swarm::{Estimator, Flight, Swarm, SwarmSpec, SwarmState};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// What an optimiser remembers, under its method's name.
+/// Memory of an optimiser, under its method's name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(into = "BTreeMap<String, Value>", try_from = "BTreeMap<String, Value>")]
 pub struct OptimizerState {

@@ -1,7 +1,7 @@
 //! Gauss-Newton with Broyden's Jacobian: the classical way to a goal in few evaluations, the Jacobian carried over from
 //! goal to goal.
 //!
-//! Symbols: d joints q, m features o, goals `X_j`, Jacobian J (m x d, features' unit a rad or m).
+//! Symbols: d joints q, m features o, goals `X_j`, Jacobian J (m x d, features' unit per rad or m).
 //!
 //! 1. Identification: home, then home with each joint moved in turn; every trial, these and all later ones, corrects J
 //!    along its step by Broyden's rank-one update `J += (do - J dq) dq' / (dq' dq)`. From J = 0 the moves of single joints
@@ -60,7 +60,7 @@ impl Method for BroydenSpec {
     }
 }
 
-/// A run of the Broyden Gauss-Newton method. What it knows follows from the trials told, in their order.
+/// A run of the Broyden Gauss-Newton method; its state is a function of its trials, in their order.
 pub struct Broyden {
     spec: BroydenSpec,
     tolerance: f64,
@@ -128,7 +128,7 @@ impl Broyden {
         self.jacobian.ger(1.0 / dq.norm_squared(), &error, &dq, 1.0);
     }
 
-    /// What a trial with an observation says of the way to the goal.
+    /// Learns from a trial with an observation.
     fn judge(&mut self, trial: usize) {
         let Some(base) = self.base else {
             self.base = Some(trial);

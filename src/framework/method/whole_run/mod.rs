@@ -1,12 +1,12 @@
-//! Methods that own a whole run: all goals at once, every trial remembered, so that a dozen evaluations can do.
+//! Methods that plan a whole run: all goals at once, every trial remembered, so that a dozen evaluations suffice.
 //!
 //! # Architecture Invariants
 //! - State = configuration + append-only log. `ask` is a pure function of the two: its random stream is seeded by
 //!   (seed, length of the log), so a checkpoint is the log, and a resumed run proposes the same bits.
-//! - A trial is told with its observation *vector*; a trial whose observation was lost is told too, and costs one.
+//! - A method receives the observation *vector* of each trial; a trial without one, because it was lost, counts too.
 //! - A measured pose serves every goal it is near; a goal no pose can serve is reported with its best residual.
-//! - What a robot may not take is never proposed: forbidden poses are not in the [`Space`], steps are bounded by
-//!   [`Stepped`] around every method.
+//! - A method never proposes a pose that the robot may not take: forbidden poses are not in the [`Space`], and
+//!   [`Stepped`] bounds the steps of every method.
 //! - No kinematics is needed: joints in, features out, limits known. A simulator is a prior, not a requirement.
 
 mod broyden;

@@ -25,9 +25,9 @@ impl<F: FnMut(&[f64], &mut [f64]) + Send> FeatureMap for F {
 pub struct Trial {
     /// Joints as commanded, rad or m.
     pub joints: Vec<f64>,
-    /// The m features seen; none when the observation was lost.
+    /// The m features seen; absent if the observation was lost.
     pub observation: Option<Vec<f64>>,
-    /// The cells seen affected after it, 64 a word, row-major, lowest bit first; none where cells are not seen.
+    /// The cells seen affected after it, 64 per word, row-major, lowest bit first; absent if cells are not seen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(value_type = Option<Vec<u64>>))]
     pub cells: Option<CellSet>,
@@ -35,7 +35,7 @@ pub struct Trial {
     pub goal: usize,
 }
 
-/// What a method wants next.
+/// Next step of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NextTrial {
     /// Execute this pose.
@@ -52,7 +52,7 @@ pub enum NextTrial {
 /// The result for one goal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GoalOutcome {
-    /// Index of the trial whose pose serves the goal best; none when nothing was observed.
+    /// Index of the trial whose pose serves the goal best; `None` if nothing was observed.
     pub trial: Option<usize>,
     /// Its distance from the goal, features' unit (with noise: of the model's mean there).
     pub distance: f64,
@@ -60,7 +60,7 @@ pub struct GoalOutcome {
     pub reached: bool,
 }
 
-/// A method that owns a whole run. Its state is its configuration and its log: tell a fresh one the log to resume.
+/// A search for all goals at once. Its state is its configuration and its log: to resume, tell a fresh one the log.
 pub trait WholeRun: Send {
     /// The next pose, a function of configuration, seed and log alone.
     fn ask(&mut self) -> NextTrial;
@@ -71,7 +71,7 @@ pub trait WholeRun: Send {
     /// The trials so far.
     fn log(&self) -> &[Trial];
 
-    /// Indices of the trials whose effect stays: what is executed before the next trial where a world was put back.
+    /// Indices of the trials whose effect stays: they are executed again before each trial if the world was put back.
     fn accepted(&self) -> &[usize] {
         &[]
     }
@@ -83,7 +83,7 @@ pub trait WholeRun: Send {
     fn is_used_up(&self, goal: usize) -> bool;
 }
 
-/// What a method that plans the whole run begins with.
+/// Input of a method that plans the whole run.
 #[derive(Debug, Clone, Copy)]
 pub struct RunSetup<'a> {
     /// The poses that may be executed.

@@ -117,7 +117,7 @@ impl Stepped {
         a.iter().zip(b).zip(&self.space.axes).map(|((x, y), axis)| ((x - y) * axis.scale()).powi(2)).sum()
     }
 
-    /// The measured poses, one a goal, that lie within `limit` of one another and nearest to the goals.
+    /// The measured poses, one per goal, that lie within `limit` of one another and nearest to the goals.
     fn linked(&self, limit: f64) -> Option<Vec<GoalOutcome>> {
         let log = self.inner.log();
         let observed: Vec<(usize, &Trial, &[f64])> =

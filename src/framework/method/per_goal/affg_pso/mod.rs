@@ -1,10 +1,10 @@
 //! AFFG-PSO, adaptive fuzzy fitness granulation: a moved particle similar enough to an executed one takes its fitness.
 //!
-//! When a generation begins every granule's life falls by 1 and the threshold is set to
-//! `T = alpha mean(f) / min(f)` over the swarm's finite fitness values (100000 where the least is 0): a swarm that
+//! When a generation begins, every granule's life falls by 1 and the threshold is set to
+//! `T = alpha mean(f) / min(f)` over the swarm's finite fitness values (100000 if the least is 0): a swarm that
 //! agrees on its fitness trusts its granules more. A moved particle whose most similar granule has s > T takes that
-//! granule's fitness, no evaluation; else it is executed and becomes a granule. Granules, similarity and source: the
-//! `granules` module.
+//! granule's fitness without an evaluation; else it is executed and becomes a granule. Granules, similarity and
+//! source: the `granules` module.
 //!
 //! The best fitness of a swarm may then belong to a particle that took it from a granule, never executed; it wins only
 //! with `unexecuted_may_win`, and its goal then reports both its value and the true one.
@@ -20,7 +20,7 @@ use crate::random::RandomStream;
 use granules::Granules;
 use serde::{Deserialize, Serialize};
 
-/// Threshold where the least fitness is 0: no similarity reaches it.
+/// Threshold if the least fitness is 0: no similarity reaches it.
 const UNREACHABLE: f64 = 100_000.0;
 
 /// A saved swarm with its granules.

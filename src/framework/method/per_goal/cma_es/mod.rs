@@ -64,7 +64,7 @@ impl CmaEs {
         Ok(search)
     }
 
-    /// Goes on from a saved state.
+    /// Resumes a saved search.
     ///
     /// # Errors
     /// [`OptimizerError`] if the state's version or shape does not fit.
@@ -88,7 +88,7 @@ impl CmaEs {
         search
     }
 
-    /// What follows from the distribution.
+    /// Derives axes and mean from the distribution.
     fn prepare(&mut self) {
         self.axes = self.state.distribution.axes();
         self.mean = self.placed(&self.state.distribution.mean);

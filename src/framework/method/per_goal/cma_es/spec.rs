@@ -24,7 +24,7 @@ parameters! {
         pub restarts: u32 = 9, in 0..=100;
         /// Factor of lambda at each restart.
         pub restart_growth: f64 = 2.0, in 1.0..=10.0;
-        /// What happens to genes outside their limits.
+        /// Treatment of genes outside their limits.
         pub bounds: BoundsRule = BoundsRule::Clamp;
     }
 }

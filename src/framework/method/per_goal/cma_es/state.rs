@@ -1,4 +1,4 @@
-//! What a CMA-ES remembers; saved and resumed as it is.
+//! State of CMA-ES; saved and resumed as it is.
 
 use super::distribution::Distribution;
 use super::spec::CmaEsSpec;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// Version of [`CmaEsState`]; changes when its meaning does.
 pub(super) const STATE_VERSION: u32 = 1;
 
-/// Everything a CMA-ES remembers. Matrices are row-major, one row a candidate of the present generation.
+/// State of CMA-ES. Matrices are row-major, one row per candidate of the present generation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CmaEsState {
@@ -21,7 +21,7 @@ pub struct CmaEsState {
     pub(super) distribution: Distribution,
     /// Executed joints, rad or m.
     pub(super) joints: Vec<f64>,
-    /// Infinite where not told or failed.
+    /// Infinite if unknown or failed.
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
     pub(super) waiting: Waiting,
@@ -30,7 +30,7 @@ pub struct CmaEsState {
     /// The generation in which the present search began, and the one in which it last improved.
     pub(super) began: u64,
     pub(super) improved: u64,
-    /// Best fitness of the present search; none before one was told.
+    /// Best fitness of the present search; `None` before the first.
     pub(super) run_best: Option<f64>,
     pub(super) restarts: u32,
     /// Whether the present search began at the previous goal's result.

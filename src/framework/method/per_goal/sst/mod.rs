@@ -45,7 +45,7 @@ impl Sst {
         Ok(Self::with(spec, space, state))
     }
 
-    /// Goes on from a saved state.
+    /// Resumes a saved search.
     ///
     /// # Errors
     /// [`OptimizerError`] if the state's version or shape does not fit.
@@ -108,7 +108,7 @@ impl Sst {
         state.waiting.push(&mut state.next_id, slot);
     }
 
-    /// Incumbent of fame and stop rules; `state.generation` is the one that ends.
+    /// Updates the hall of fame and applies the stop rules; `state.generation` is the generation that ends.
     fn end_generation(&mut self) {
         let best = self.best_slot();
         let best_fitness = best.map_or(f64::INFINITY, |slot| self.state.fitness[slot]);
@@ -128,7 +128,7 @@ impl Sst {
         state.iteration = 0;
     }
 
-    /// The best individual of the population, the last on ties; none if none was executed.
+    /// The best individual of the population, the last on ties; `None` if none was executed.
     fn best_slot(&self) -> Option<usize> {
         let fitness = &self.state.fitness;
         let mut best = None;
@@ -153,7 +153,7 @@ impl Sst {
         }
     }
 
-    /// After a rejection: a random individual is drawn anew, a child's tournament is held again.
+    /// Replaces a rejected candidate: a random individual is drawn anew, a child's tournament is held again.
     fn again(&mut self, slot: usize) {
         let genes = self.space.lower.len();
         let state = &mut self.state;

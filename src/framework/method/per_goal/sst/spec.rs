@@ -14,7 +14,7 @@ parameters! {
         pub stagnation: u32 = 3;
         /// Probability that a child is mutated after crossover.
         pub mutation_probability: f64 = 0.6, in 0.0..=1.0;
-        /// What happens to genes outside their limits.
+        /// Treatment of genes outside their limits.
         pub bounds: BoundsRule = BoundsRule::Clamp;
         /// Four crossover operators leave gene 0 as it was in the overwritten individual, as ECF did in the published runs.
         pub ecf_gene0_quirk: bool = false;

@@ -1,4 +1,4 @@
-//! What a steady-state tournament remembers; saved and resumed as it is.
+//! State of the steady-state tournament; saved and resumed as it is.
 
 use super::spec::SstSpec;
 use crate::infinite_as_null;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Version of [`SstState`]; changes when its meaning does.
 pub(super) const STATE_VERSION: u32 = 1;
 
-/// Everything a steady-state tournament remembers. Matrices are row-major, one row an individual.
+/// State of the steady-state tournament. Matrices are row-major, one row per individual.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SstState {
@@ -19,7 +19,7 @@ pub struct SstState {
     pub(super) rng: RandomStream,
     pub(super) joints: Vec<f64>,
     pub(super) observations: Vec<f64>,
-    /// Infinite where never executed or failed.
+    /// Infinite if never executed or failed.
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
     pub(super) provenance: Vec<Provenance>,

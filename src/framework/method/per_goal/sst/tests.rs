@@ -11,7 +11,7 @@ fn sphere(joints: &[f64]) -> f64 {
     joints.iter().map(|q| (q - 0.4) * (q - 0.4)).sum()
 }
 
-/// Tells the outcome of at most `budget` candidates; returns how many were told.
+/// Reports the outcome of at most `budget` candidates; returns their number.
 fn drive(sst: &mut Sst, objective: fn(&[f64]) -> f64, budget: usize) -> usize {
     let mut batch = Batch::new(3, 7);
     let mut told = 0;

@@ -8,7 +8,7 @@
 //!
 //! # Invariants
 //! - The bits do not depend on how many candidates are asked for at once: a particle moves before an earlier one was
-//!   told only where its move cannot depend on it (leader by memory, estimator without memory of the generation).
+//!   told only if its move cannot depend on it (leader by memory, estimator without memory of the generation).
 //! - Only executed particles enter the hall, unless `unexecuted_may_win`.
 
 mod movement;
@@ -45,7 +45,7 @@ pub(super) struct Flight<'a> {
 pub(super) trait Estimator: Send {
     /// The method's name.
     const METHOD: &'static str;
-    /// Where its estimates come from.
+    /// Origin of its estimates.
     const PROVENANCE: Provenance;
 
     /// Whether estimates of one generation depend on its executions.
@@ -54,11 +54,11 @@ pub(super) trait Estimator: Send {
     fn may_win(&self) -> bool;
     /// A generation begins with these fitness values.
     fn begin(&mut self, fitness: &[f64]);
-    /// A fitness for that particle, or none: it is executed.
+    /// A fitness for that particle; `None` if it must be executed.
     fn estimate(&mut self, flight: &Flight<'_>, rng: &mut RandomStream) -> Option<f64>;
     /// A moved particle was executed.
     fn executed(&mut self, x: &[f64], fitness: f64);
-    /// The whole optimiser's state.
+    /// State of the swarm together with the estimator.
     fn save(&self, swarm: SwarmState) -> OptimizerState;
 }
 
@@ -143,7 +143,8 @@ impl<E: Estimator> Swarm<E> {
         state.waiting.push_next(&mut state.next_id, slot);
     }
 
-    /// Incumbent of fame, stop rules, and the start of the next generation, if every particle has its fitness.
+    /// Once every particle has its fitness: updates the hall of fame, applies the stop rules and starts the next
+    /// generation.
     fn end_generation_if_settled(&mut self) {
         let population = self.spec.population as usize;
         if !self.state.waiting.is_empty() || (self.state.generation > 0 && self.state.moved < population) {
@@ -184,7 +185,7 @@ impl<E: Estimator> Swarm<E> {
         }
     }
 
-    /// The best particle that may win, the last on ties; none if none has a finite fitness.
+    /// The best particle that may win, the last on ties; `None` if none has a finite fitness.
     fn best_slot(&self) -> Option<usize> {
         let may_win = |provenance: Provenance| provenance != E::PROVENANCE || self.estimator.may_win();
         let (mut best, mut smallest) = (None, f64::INFINITY);

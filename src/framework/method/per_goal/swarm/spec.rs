@@ -21,11 +21,11 @@ parameters! {
         pub social: f64 = 1.49618, in 0.0..=10.0;
         /// Largest velocity of a gene in one generation; the gene's range if absent.
         pub max_velocity: Option<f64> = None, in above(0.0), unit "rad or m";
-        /// Which sides of the velocity are limited.
+        /// Sides of the velocity that are limited.
         pub velocity_clamp: VelocityClamp = VelocityClamp::Both;
-        /// What happens to genes outside their limits.
+        /// Treatment of genes outside their limits.
         pub bounds: BoundsRule = BoundsRule::Reflect;
-        /// Who leads the swarm.
+        /// Particle that leads the swarm.
         pub leader: Leader = Leader::BestMemory;
         /// One pair of random numbers moves all genes of a particle, as in the published runs, instead of one per gene.
         pub one_random_pair: bool = false;
@@ -41,7 +41,7 @@ parameters! {
     }
 }
 
-/// Which sides of a velocity are limited.
+/// Sides of a velocity that are limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
@@ -53,7 +53,7 @@ pub enum VelocityClamp {
     UpperOnly,
 }
 
-/// Who leads the swarm.
+/// Particle that leads the swarm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]

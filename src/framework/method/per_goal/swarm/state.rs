@@ -1,4 +1,4 @@
-//! What a particle swarm remembers; saved and resumed as it is.
+//! State of a particle swarm; saved and resumed as it is.
 
 use super::movement::limited;
 use super::spec::SwarmSpec;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 /// Version of [`SwarmState`]; changes when its meaning does.
 pub(super) const STATE_VERSION: u32 = 1;
 
-/// Everything a particle swarm remembers. Matrices are row-major, one row a particle.
+/// State of a particle swarm. Matrices are row-major, one row per particle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SwarmState {
@@ -27,7 +27,7 @@ pub struct SwarmState {
     #[serde(with = "infinite_as_null")]
     pub(super) memory_fitness: Vec<f64>,
     pub(super) observations: Vec<f64>,
-    /// Infinite where never executed or failed.
+    /// Infinite if never executed or failed.
     #[serde(with = "infinite_as_null")]
     pub(super) fitness: Vec<f64>,
     pub(super) provenance: Vec<Provenance>,

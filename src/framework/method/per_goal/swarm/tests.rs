@@ -22,7 +22,7 @@ fn small(name: &str) -> MethodSpec {
         MethodSpec::Pso(spec) => spec.swarm.population = 12,
         MethodSpec::FiPso(spec) => spec.swarm.population = 12,
         MethodSpec::AffgPso(spec) => (spec.swarm.population, spec.omega) = (12, 0.3),
-        other => panic!("{} is no swarm", other.name()),
+        other => panic!("{} is not a swarm", other.name()),
     }
     method
 }

@@ -124,7 +124,7 @@ impl ModelIet {
         NextTrial::Finished
     }
 
-    /// What was seen at each own trial, one row of m each: with noise what the model makes of it. None where the
+    /// Observations of the own trials, m values each; with noise, the model's mean there instead. `None` if the
     /// observation was lost.
     fn seen(&self, belief: &mut Belief) -> Vec<Option<Vec<f64>>> {
         let mut denoised = |trial: &Trial| {

@@ -2,9 +2,9 @@
 //!
 //! Each particle is one draw of the simulator's parameters; it says which cells each pose covers and which cells the
 //! accepted trials have changed (S_k). The next trial is the unused pose that most particles, by weight, expect to
-//! gain exactly one cell. A trial reweighs: `log w_k -= 1.5 | |cover_k(q) minus S_k| - gain |`; where the cells are
+//! gain exactly one cell. A trial reweighs: `log w_k -= 1.5 | |cover_k(q) minus S_k| - gain |`; if the cells are
 //! seen, by the number of cells that were expected and not gained or gained and not expected, and S_k is what is seen.
-//! Where no pose convinces half of the weight, particles are resampled and jittered, and the log is replayed.
+//! If no pose convinces half of the weight, particles are resampled and jittered, and the log is replayed.
 //!
 //! Source: N. J. Gordon, D. J. Salmond, A. F. M. Smith, IEE Proceedings F 140 (1993) 107-113.
 

@@ -1,8 +1,8 @@
 //! The bookkeeping of effects that accumulate (a share of a surface): what each trial gained, what was accepted.
 //!
-//! A gain is counted in steps of the action: the smallest rise between goals is 1. Where the world can be put back, a
-//! trial that gains one step is accepted (after three straight gains of more, such a gain too); where it cannot, every
-//! trial stays. The goal pointer is the first goal above what is observed.
+//! A gain is counted in steps of the action: the smallest rise between goals is 1. If the world can be put back, a
+//! trial that gains one step is accepted (after two refused gains of more in a row, such a gain too); if not, every
+//! trial stays. The current goal is the first one above the share observed.
 
 use crate::CellSet;
 use crate::method::contract::{Effects, Method, Profile, SimulatorUse};
@@ -29,7 +29,7 @@ impl Method for CoverSpec {
     }
 }
 
-/// The log of a run with what it amounts to.
+/// The log of a run, with the trials accepted and the share reached.
 #[derive(Debug, Clone)]
 pub(in crate::method::whole_run) struct Ledger {
     spec: CoverSpec,
@@ -40,19 +40,19 @@ pub(in crate::method::whole_run) struct Ledger {
     pub log: Vec<Trial>,
     /// Indices of the accepted trials, in order.
     pub accepted: Vec<usize>,
-    /// What the world shows after the accepted trials, features' unit.
+    /// Share shown after the accepted trials, features' unit.
     level: f64,
-    /// The cells it shows then, where cells are seen.
+    /// The cells shown then; empty if cells are not seen.
     cells: CellSet,
     /// The first trial that left the world as it was at the start.
     idle: Option<usize>,
     straight_overshoots: u32,
 }
 
-/// What a trial amounted to.
+/// Effect of a trial.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::method::whole_run) struct TrialEffect {
-    /// Steps gained over the accepted trials; none when the observation was lost.
+    /// Steps gained over the accepted trials; `None` if the observation was lost.
     pub gain: Option<f64>,
     /// The cells gained; `None` if cells are not seen.
     pub fresh: Option<CellSet>,
@@ -80,7 +80,7 @@ impl Ledger {
         }
     }
 
-    /// The first goal above what the world shows; none when all are reached.
+    /// The first goal above the share shown; `None` if all are reached.
     pub fn goal(&self) -> Option<usize> {
         self.goals.iter().position(|g| *g > self.level + 1e-6 * self.step)
     }
@@ -120,8 +120,8 @@ impl Ledger {
         TrialEffect { gain, fresh, accepted }
     }
 
-    /// For each goal the first accepted trial that shows it or more, the last one where none does; for goals that hold
-    /// at the start, a trial that changed nothing.
+    /// For each goal, the first accepted trial that shows it or more, or else the last accepted one; for goals that
+    /// hold at the start, a trial that changed nothing.
     pub fn outcomes(&self) -> Vec<GoalOutcome> {
         let seen = |index: usize| self.log[index].observation.as_ref().map(|o| o[0]);
         let kept = self.idle.iter().chain(&self.accepted);
