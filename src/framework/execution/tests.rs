@@ -112,7 +112,6 @@ fn quick(name: &str) -> Problem {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn interrupted_anywhere_a_run_ends_with_the_same_digest(
         seed: u64, cuts in prop::collection::vec(1_u64..90, 1..12), paint: bool

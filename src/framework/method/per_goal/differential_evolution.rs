@@ -374,7 +374,6 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(16))]
         #[test]
         fn bits_do_not_depend_on_batch_sizes(seed: u64, size in 2_usize..50) {
             prop_assert_eq!(

@@ -350,7 +350,6 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(32))]
         #[test]
         fn proposals_stay_in_the_limits_and_follow_from_the_log(
             goals in prop::collection::vec(prop::collection::vec(-2.0..2.0_f64, 2), 1..5), lost in 0_usize..4

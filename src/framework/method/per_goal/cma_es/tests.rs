@@ -133,7 +133,6 @@ fn failures_are_outlived() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn bits_do_not_depend_on_batch_sizes(seed: u64, size in 2_usize..40) {
         let spec = CmaEsSpec::default();

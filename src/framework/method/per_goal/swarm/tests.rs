@@ -48,7 +48,6 @@ fn search(method: &MethodSpec, seed: u64, size: usize) -> (Vec<(u64, Vec<u64>)>,
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn bits_do_not_depend_on_batch_sizes(seed: u64, size in 2_usize..40) {
         for name in METHODS {
