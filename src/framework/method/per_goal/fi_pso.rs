@@ -17,7 +17,7 @@ use crate::random::RandomStream;
 parameters! {
     /// Parameters of FI-PSO, a particle swarm whose particles inherit some of their fitness.
     pub struct FiPsoSpec {
-        /// The swarm.
+        /// Parameters of the swarm itself.
         pub swarm: SwarmSpec = SwarmSpec::default();
         /// Probability that a moved particle inherits its fitness instead of being executed.
         pub inheritance_probability: f64 = 0.55, in 0.0..=1.0;

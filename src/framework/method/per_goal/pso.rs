@@ -13,7 +13,7 @@ use crate::random::RandomStream;
 parameters! {
     /// Parameters of PSO, particle swarm optimisation.
     pub struct PsoSpec {
-        /// The swarm.
+        /// Parameters of the swarm itself.
         pub swarm: SwarmSpec = SwarmSpec::default();
     }
 }

@@ -8,7 +8,7 @@ use crate::range::above;
 parameters! {
     /// Parameters of AFFG-PSO, a particle swarm with adaptive fuzzy fitness granulation.
     pub struct AffgPsoSpec {
-        /// The swarm.
+        /// Parameters of the swarm itself.
         pub swarm: SwarmSpec = SwarmSpec::default();
         /// alpha: threshold T = alpha mean(f) / min(f) of the swarm.
         pub alpha: f64 = 0.2, in 0.0..;
