@@ -1,4 +1,4 @@
-//! Actions, as they are shown.
+//! Actions, as shown.
 
 use super::id::{ActionId, DemonstrationId, JobId};
 use super::time::Timestamp;
@@ -25,7 +25,7 @@ pub struct ActionView {
     pub mean_duration_s: f64,
     /// T_min, the requested minimum time between goals, seconds.
     pub t_min_s: f64,
-    /// How samples were weighted.
+    /// Weighting of the samples.
     pub weighting: Weighting,
     /// Default metric for recognition.
     pub metric: Metric,

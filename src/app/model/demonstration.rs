@@ -1,4 +1,4 @@
-//! Demonstrations, as they are shown and changed.
+//! Demonstrations, as shown and changed.
 
 use super::id::DemonstrationId;
 use super::time::Timestamp;
@@ -10,24 +10,24 @@ use utoipa::ToSchema;
 /// A demonstration without its samples.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct DemonstrationView {
-    /// Its id.
+    /// Id of the demonstration.
     pub id: DemonstrationId,
     /// Display name.
     pub name: String,
-    /// Number of times it was changed; `If-Match` compares it.
+    /// Revision: 1 at first, then one more with each change; `If-Match` names it.
     pub revision: u64,
-    /// Why it is left out of new actions, if it is.
+    /// Reason for leaving it out of new actions; absent if it is not left out.
     #[schema(required = true)]
     pub excluded: Option<String>,
-    /// Streams.
+    /// Streams that were recorded together.
     pub streams: Vec<StreamView>,
-    /// From the first to the last sample of all streams, seconds.
+    /// Time from the first to the last sample of all streams, seconds.
     pub duration_s: f64,
     /// SHA-256 over the streams' samples, hexadecimal.
     pub sha256: String,
     /// Number of findings of the reader.
     pub findings: u32,
-    /// When it was uploaded.
+    /// Time of upload.
     pub created_at: Timestamp,
 }
 
@@ -46,10 +46,10 @@ pub struct StreamView {
     pub duration_s: f64,
 }
 
-/// What the reader found.
+/// Findings of the reader.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct DemonstrationReport {
-    /// The demonstration.
+    /// Id of the demonstration.
     pub demonstration: DemonstrationId,
     /// Findings in the order of the data.
     pub findings: Vec<Finding>,
@@ -62,13 +62,13 @@ pub struct PatchDemonstration {
     /// New display name.
     #[serde(default)]
     pub name: Option<String>,
-    /// A reason leaves it out of new actions; the empty text takes it in again.
+    /// Reason for leaving it out of new actions; an empty text includes it again.
     #[serde(default)]
     pub excluded: Option<String>,
 }
 
 impl DemonstrationView {
-    /// The demonstration after a change, one revision later. An empty reason for exclusion takes it in again.
+    /// The demonstration after a change, one revision later. An empty reason for exclusion includes it again.
     #[must_use]
     pub fn patched(self, patch: PatchDemonstration) -> Self {
         let PatchDemonstration { name, excluded } = patch;

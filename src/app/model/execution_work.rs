@@ -1,4 +1,4 @@
-//! All an execution needs, resolved when it was submitted.
+//! The whole input of an execution, resolved when it was submitted.
 
 use super::id::{ActionId, RobotId, WorldId};
 use crate::framework::execution::Problem;

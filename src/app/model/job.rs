@@ -1,4 +1,4 @@
-//! Jobs, as they are shown.
+//! Jobs, as shown.
 
 use super::id::{ActionId, ExperimentId, JobId, RunId};
 use super::job_kind::{CreateJob, JobKind};
@@ -8,72 +8,72 @@ use crate::framework::job::State;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A job as it stands.
+/// A job with its present state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JobView {
-    /// Its id.
+    /// Id of the job.
     pub id: JobId,
-    /// What it does.
+    /// Kind of work.
     pub kind: JobKind,
     /// Display name.
     pub name: String,
-    /// Where it stands.
+    /// Present state.
     pub state: State,
-    /// Why, where there is more to say than the state.
+    /// Reason for the state; absent if the state says it all.
     #[schema(required = true)]
     pub state_reason: Option<String>,
-    /// Since when.
+    /// Time of the last change of state.
     pub state_since: Timestamp,
-    /// How often a worker claimed it.
+    /// Number of times a worker claimed it.
     pub attempt: u32,
-    /// How far it is.
+    /// Progress so far.
     pub progress: JobProgress,
-    /// The request, with what was left open filled in.
+    /// The request with its defaults filled in.
     pub request: CreateJob,
-    /// What it made so far.
+    /// Results so far.
     pub result: JobResult,
-    /// Why it failed.
+    /// Reason of the failure; absent unless the job failed.
     #[schema(required = true)]
     pub failure: Option<JobFailure>,
     /// Sequence number of its last event.
     pub last_seq: u64,
-    /// When it was submitted.
+    /// Time of submission.
     pub created_at: Timestamp,
-    /// When a worker first started it.
+    /// Time at which a worker first started it; absent before.
     #[schema(required = true)]
     pub started_at: Option<Timestamp>,
-    /// When it ended.
+    /// Time at which it ended; absent before.
     #[schema(required = true)]
     pub finished_at: Option<Timestamp>,
 }
 
-/// What a job made.
+/// Results of a job.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JobResult {
-    /// The action, of a generalization.
+    /// The action, if the job generalizes.
     #[schema(required = true)]
     pub action: Option<ActionId>,
-    /// The runs, of an execution, in the order of repetitions.
+    /// The runs of an execution, in the order of repetitions.
     pub runs: Vec<RunId>,
-    /// The experiment, from its submission on.
+    /// The experiment, named from its submission on; absent for other kinds.
     #[schema(required = true)]
     pub experiment: Option<ExperimentId>,
 }
 
-/// Why a job failed.
+/// Reason of a failure.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct JobFailure {
     /// Stable code.
     pub code: String,
-    /// What happened, with the numbers.
+    /// Description of the failure, with the numbers.
     pub message: String,
 }
 
-/// Which jobs.
+/// Filter of a list of jobs.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct JobFilter {
-    /// In one of these states; any when empty.
+    /// States of the jobs; all if empty.
     pub states: Vec<State>,
-    /// Of this kind.
+    /// Kind of the jobs; all if `None`.
     pub kind: Option<JobKind>,
 }

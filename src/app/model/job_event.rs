@@ -10,64 +10,64 @@ use utoipa::ToSchema;
 /// One event of a job.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JobEvent {
-    /// 1 for the first event of the job, then counted up without gaps.
+    /// Sequence number: 1 for the first event of the job, then counting up without gaps.
     pub seq: u64,
-    /// The job.
+    /// Job it belongs to.
     pub job: JobId,
-    /// When.
+    /// Time of the event.
     pub at: Timestamp,
-    /// What.
+    /// Content of the event.
     #[serde(flatten)]
     pub data: EventData,
 }
 
-/// What happened; `type` picks one.
+/// Content of an event; `type` selects the variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum EventData {
-    /// The job is in another state.
+    /// The state changed.
     State {
         /// The new state.
         state: State,
-        /// Why.
+        /// Reason for the state; absent if the state says it all.
         #[schema(required = true)]
         reason: Option<String>,
-        /// How often a worker claimed it.
+        /// Number of times a worker claimed the job.
         attempt: u32,
     },
-    /// The job went on.
+    /// The job made progress.
     Progress {
-        /// How far it is.
+        /// Progress so far.
         progress: JobProgress,
     },
-    /// Events before this one are not kept or were never there: read the job anew. Sent, never stored.
+    /// Earlier events are not available: read the job anew. Sent, never stored.
     Resync,
     /// A goal ended.
     Goal {
-        /// The goal.
+        /// Result of the goal.
         goal: GoalProgress,
     },
-    /// A method that owns the whole run made a trial.
+    /// A method that plans the whole run made a trial.
     Trial {
-        /// The trial.
+        /// Outcome of the trial.
         trial: TrialProgress,
     },
     /// A repetition ended.
     Run {
-        /// The run.
+        /// Id of the finished run.
         run: RunId,
-        /// Its trajectory.
+        /// Id of its trajectory; absent if it has none.
         #[schema(required = true)]
         trajectory: Option<TrajectoryId>,
         /// Repetition, from 0.
         repetition: u32,
-        /// Its seed.
+        /// Seed of the repetition.
         seed: u64,
-        /// Evaluations.
+        /// Number of evaluations.
         evaluations: u64,
         /// Discrepancy, features' unit.
         discrepancy: f64,
-        /// Share painted, %.
+        /// Painted share, %; absent unless the world is a surface.
         #[schema(required = true)]
         painted_percent: Option<f64>,
         /// SHA-256 of the result's bits, hexadecimal.
@@ -80,7 +80,8 @@ pub enum EventData {
 pub struct EventPage {
     /// Events in the order of `seq`.
     pub events: Vec<JobEvent>,
-    /// The asked position is unknown (too old or of another server): read the job anew and go on after `last_seq`.
+    /// Whether the requested position is unknown (too old or of another server): read the job anew and continue after
+    /// `last_seq`.
     pub resync: bool,
     /// Sequence number of the job's last event.
     pub last_seq: u64,

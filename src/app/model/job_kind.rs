@@ -1,4 +1,4 @@
-//! Job kinds: the name of each one, what is asked for, and what a worker gets.
+//! Job kinds: the name of each one, its request, and the work for a worker.
 //!
 //! A new kind adds a variant to the three enums of this file and its request.
 
@@ -93,7 +93,7 @@ pub struct GeneralizationRequest {
     pub demonstrations: Vec<DemonstrationId>,
     /// T_min, the minimum time between goals, seconds.
     pub t_min_s: f64,
-    /// How samples are weighted.
+    /// Weighting of the samples.
     #[serde(default)]
     pub weighting: Weighting,
     /// Names of the features to keep, in order; all if absent.

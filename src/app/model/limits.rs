@@ -28,7 +28,7 @@ pub const MIN_EVALUATIONS_PER_S: f64 = 0.1;
 /// Longest trial on a robot, seconds: a day.
 pub const MAX_TRIAL_S: f64 = 86_400.0;
 
-/// Demonstrations of one action.
+/// Number of demonstrations of one action.
 pub const DEMONSTRATIONS: RangeInclusive<u32> = 1..=1000;
 /// Files of one upload.
 pub const UPLOAD_FILES: RangeInclusive<u32> = 1..=64;
@@ -46,24 +46,24 @@ pub const MAX_EXPERIMENT_RUNS: u32 = 100_000;
 /// Candidates of one recognition.
 pub const MAX_CANDIDATES: u32 = 200;
 
-/// Events of a job in one answer.
+/// Number of events of a job in one answer.
 pub const EVENTS: RangeInclusive<u32> = 1..=1000;
 /// Points per feature of a demonstration's samples.
 pub const SAMPLE_POINTS: RangeInclusive<u32> = 4..=20_000;
 /// Points of a convergence curve.
 pub const CONVERGENCE_POINTS: RangeInclusive<u32> = 2..=10_000;
-/// Points per feature, or of a curve, if the request does not say.
+/// Points per feature, or of a curve, unless the request names a number.
 pub const DEFAULT_POINTS: u32 = 1000;
 /// Points of an interpolated action.
 pub const INTERPOLATION_POINTS: RangeInclusive<u32> = 2..=10_000;
 
 /// Points in one message of a streamed trajectory.
 pub const TRAJECTORY_BATCH: RangeInclusive<u32> = 1..=4096;
-/// Points in one message of a streamed trajectory if the request does not say.
+/// Points in one message of a streamed trajectory, unless the request names a number.
 pub const DEFAULT_TRAJECTORY_BATCH: u32 = 256;
 /// Longest wait for a job's event, milliseconds.
 pub const MAX_WAIT_MS: u32 = 60_000;
-/// Wait for a job's event if the request does not say, milliseconds.
+/// Wait for a job's event unless the request names a time, milliseconds.
 pub const DEFAULT_WAIT_MS: u32 = 30_000;
 /// Rows per stream of an online recognition.
 pub const MAX_RECOGNITION_ROWS: usize = 100_000;

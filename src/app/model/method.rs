@@ -8,7 +8,7 @@ use utoipa::ToSchema;
 /// All methods.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub struct MethodList {
-    /// In the order of a menu.
+    /// Methods in the order of a menu.
     pub items: Vec<MethodView>,
 }
 
@@ -17,19 +17,19 @@ pub struct MethodList {
 pub struct MethodView {
     /// Name, as written in requests.
     pub name: String,
-    /// Name for people.
+    /// Display name.
     pub label: String,
-    /// What it does and when to take it.
+    /// One sentence: purpose and use.
     pub purpose: String,
-    /// How far it plans.
+    /// Scope of a plan: one goal, or the whole run.
     pub scope: Scope,
-    /// Whether it is made for a real robot, where every evaluation takes time.
+    /// Whether it suits a real robot, where every evaluation takes time.
     pub few_evaluations: bool,
     /// Whether it begins with what earlier runs on the same robot taught.
     pub learns_from_earlier_runs: bool,
-    /// What it needs of a problem.
+    /// Properties it needs of a problem.
     pub needs: Needs,
-    /// Its parameters, in the order of a form.
+    /// Parameters in the order of a form.
     pub parameters: Vec<ParameterView>,
 }
 
@@ -41,19 +41,23 @@ pub struct ParameterView {
     /// One sentence for the person who sets it.
     pub purpose: String,
     /// Unit; `null` for a plain number, a choice or a flag.
+    #[schema(required = true)]
     pub unit: Option<String>,
     /// Whether it may be `null`.
     pub optional: bool,
-    /// Value if the request does not say.
+    /// Value unless the request names another.
     pub default: Value,
     /// Type of its values.
     #[serde(rename = "type")]
     pub kind: ParameterType,
     /// Smallest number allowed.
+    #[schema(required = true)]
     pub minimum: Option<f64>,
     /// Number that every value must exceed.
+    #[schema(required = true)]
     pub exclusive_minimum: Option<f64>,
     /// Largest number allowed.
+    #[schema(required = true)]
     pub maximum: Option<f64>,
     /// Names to choose from, in the order of a menu; empty for other types.
     pub options: Vec<String>,

@@ -1,4 +1,4 @@
-//! The vocabulary of the service: ids, pages, times, errors, and what each resource is asked for and shown as.
+//! The vocabulary of the service: ids, pages, times, errors, and the requests and views of each resource.
 //!
 //! # Architecture Invariants
 //! - The ground floor of `app`: imports the framework only. Ports import the model, use-cases import both.

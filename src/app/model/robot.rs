@@ -1,4 +1,4 @@
-//! Robots: the request for one, and how it is shown.
+//! Robots, as requested and as shown.
 
 use super::id::RobotId;
 use super::time::Timestamp;

@@ -1,4 +1,4 @@
-//! Runs, their goals, trials and convergence, as they are shown.
+//! Runs, their goals, trials and convergence, as shown.
 
 use super::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use super::time::Timestamp;
@@ -12,109 +12,110 @@ use utoipa::ToSchema;
 /// One finished repetition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunView {
-    /// Its id.
+    /// Id of the run.
     pub id: RunId,
-    /// The job it belongs to.
+    /// Job it belongs to.
     pub job: JobId,
-    /// Which repetition, from 0.
+    /// Repetition, from 0.
     pub repetition: u32,
-    /// The action executed.
+    /// Action that was executed.
     pub action: ActionId,
-    /// The robot.
+    /// Robot that executed it.
     pub robot: RobotId,
-    /// The world.
+    /// World it was executed in.
     pub world: WorldId,
     /// Method name, for example `sst`.
     pub method: String,
-    /// How discrepancy was measured.
+    /// Metric of the discrepancies.
     pub metric: Metric,
-    /// Its seed.
+    /// Seed of the repetition.
     pub seed: u64,
-    /// Evaluations of all goals.
+    /// Number of evaluations over all goals.
     pub evaluations: u64,
     /// Discrepancy of the whole observation, features' unit.
     pub discrepancy: f64,
-    /// What the last goal's winner really does, where `discrepancy` is the value of one that was never executed.
+    /// Discrepancy of the last goal's winner when executed; absent unless `discrepancy` is an estimate.
     #[schema(required = true)]
     pub true_discrepancy: Option<f64>,
-    /// Whether the last goal's joints satisfy the constraints; true where there are none.
+    /// Whether the last goal's joints satisfy the constraints; true if there are none.
     pub valid: bool,
-    /// Where the fitness values of all goals come from, by count.
+    /// Number of fitness values of all goals by origin.
     pub provenance: Tally,
-    /// Share of the surface painted, %, in a world of coverage.
+    /// Painted share, %; absent unless the world is a surface.
     #[schema(required = true)]
     pub painted_percent: Option<f64>,
     /// Number of goals.
     pub goals: u32,
     /// SHA-256 of the result's bits, hexadecimal.
     pub digest: String,
-    /// Its trajectory; absent when none could be made within the limits, which `trajectory_problem` explains.
+    /// Trajectory; absent if none stays within the limits, as `trajectory_problem` explains.
     #[schema(required = true)]
     pub trajectory: Option<TrajectoryId>,
-    /// Why there is no trajectory.
+    /// Reason why there is no trajectory; absent if there is one.
     #[schema(required = true)]
     pub trajectory_problem: Option<String>,
-    /// When it ended.
+    /// Time at which it ended.
     pub created_at: Timestamp,
 }
 
 /// One goal of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunGoal {
-    /// From 0.
+    /// Index of the goal, from 0.
     pub index: u32,
-    /// Evaluations of this goal.
+    /// Number of evaluations for this goal.
     pub evaluations: u64,
     /// Discrepancy of the observation up to this goal, features' unit.
     pub discrepancy: f64,
-    /// Why the goal ended.
+    /// Reason why the goal ended.
     pub stop_reason: StopReason,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
-    /// What was observed there.
+    /// Observation at these joints.
     pub observation: Vec<f64>,
-    /// What was asked for.
+    /// Requested features.
     pub goal: Vec<f64>,
-    /// Distance of `observation` from `goal` (Euclidean, features' unit): for a goal out of reach the best found.
+    /// Distance of `observation` from `goal` (Euclidean, features' unit), the smallest one found if the goal is out of
+    /// reach.
     #[schema(required = true)]
     pub residual: Option<f64>,
-    /// Where the winner's discrepancy comes from.
+    /// Origin of the winner's discrepancy.
     pub winner: Provenance,
-    /// What the winner really does, where `discrepancy` is the value of one that was never executed.
+    /// Discrepancy of the winner when executed; absent unless `discrepancy` is an estimate.
     #[schema(required = true)]
     pub true_discrepancy: Option<f64>,
-    /// Whether the joints satisfy the constraints; true where there are none.
+    /// Whether the joints satisfy the constraints; true if there are none.
     pub feasible: bool,
-    /// Where the fitness values of this goal come from, by count.
+    /// Number of fitness values of this goal by origin.
     pub provenance: Tally,
 }
 
 /// All goals of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunGoals {
-    /// The run.
+    /// Id of the run.
     pub run: RunId,
     /// Features, in the order of `goal` and `observation`.
     pub features: Vec<Feature>,
     /// Free joints, in the order of `joints`.
     pub joint_names: Vec<String>,
-    /// One entry a goal.
+    /// One entry per goal.
     pub goals: Vec<RunGoal>,
 }
 
-/// The trials of a run whose method remembers each one.
+/// Trials of a run whose method plans the whole run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunTrials {
-    /// The run.
+    /// Id of the run.
     pub run: RunId,
-    /// In the order they were made; none where the method remembers none.
+    /// Trials in the order they were made; empty for methods that search goal by goal.
     pub trials: Vec<Trial>,
 }
 
 /// Discrepancy against evaluations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Convergence {
-    /// The run.
+    /// Id of the run.
     pub run: RunId,
     /// Points, in the order of evaluations.
     pub points: Vec<ConvergencePoint>,
@@ -125,15 +126,15 @@ pub struct Convergence {
 pub struct ConvergencePoint {
     /// Goal index, from 0.
     pub goal_index: u32,
-    /// Evaluations since the run began.
+    /// Number of evaluations since the run began.
     pub evaluations: u64,
-    /// Best discrepancy of the observation up to this goal.
+    /// Best discrepancy of the observation up to this goal, features' unit.
     pub discrepancy: f64,
 }
 
-/// Which runs.
+/// Filter of a list of runs.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct RunFilter {
-    /// Of this job only.
+    /// Job of the runs; all if `None`.
     pub job: Option<JobId>,
 }

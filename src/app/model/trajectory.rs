@@ -1,4 +1,4 @@
-//! Trajectories, as they are shown.
+//! Trajectories, as shown.
 
 use super::id::{JobId, RobotId, RunId, TrajectoryId};
 use super::time::Timestamp;

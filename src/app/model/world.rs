@@ -1,4 +1,4 @@
-//! Worlds: the request for one, and how it is shown.
+//! Worlds, as requested and as shown.
 
 use super::id::WorldId;
 use super::time::Timestamp;

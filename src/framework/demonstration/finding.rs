@@ -81,16 +81,16 @@ pub struct Finding {
     /// Stable kind of the finding.
     pub code: FindingCode,
     /// Name of the stream; `None` if the finding concerns the whole file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub stream: Option<String>,
     /// Line of the file (CSV, logs) or sample (JSON), from 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub row: Option<u64>,
     /// Name of the column or feature; `column N` (from 1) if it has no name.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub column: Option<String>,
     /// Time at that place on the recorder's clock, seconds.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub time_s: Option<f64>,
     /// Description of the problem, with the numbers.
     pub message: String,

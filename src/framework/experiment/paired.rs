@@ -24,6 +24,7 @@ pub struct PairedComparison {
     /// Mean of second - first.
     pub mean_difference: f64,
     /// 95 % interval of the mean difference by Student's t; absent for a single pair.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub interval_95: Option<[f64; 2]>,
     /// Sum of the ranks of the positive differences.
     pub w_plus: f64,

@@ -18,10 +18,13 @@ pub struct CellResult {
     /// Number of runs whose last goal had no feasible candidate.
     pub invalid: u64,
     /// Evaluations after the last goal; absent until a run counts.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub evaluations: Option<Summary>,
     /// Discrepancy after the last goal (features' unit).
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub discrepancy: Option<Summary>,
     /// Share of the cells reached at the last goal, %; absent if the world has no cells.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub painted: Option<Summary>,
     /// Cumulative evaluations after each goal, one entry per goal.
     pub cumulative: Vec<Summary>,

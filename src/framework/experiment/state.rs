@@ -34,10 +34,11 @@ pub struct RunRow {
     /// Discrepancy of the last goal's winner according to the method (features' unit).
     pub discrepancy: f64,
     /// Discrepancy of that winner when executed; `None` unless the method never executed it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub true_discrepancy: Option<f64>,
     /// Painted share, %; `None` unless the world is a surface. See
     /// [`RunResult::painted_percent`](crate::execution::RunResult::painted_percent).
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub painted_percent: Option<f64>,
     /// Whether the last goal had no feasible candidate.
     pub invalid: bool,

@@ -16,8 +16,10 @@ pub struct Summary {
     /// Arithmetic mean.
     pub mean: f64,
     /// Sample standard deviation (denominator k - 1); absent for a single value.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub sd: Option<f64>,
     /// 95 % confidence interval of the mean by Student's t; absent for a single value.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub interval_95: Option<[f64; 2]>,
     /// Middle value: half of the values are smaller.
     pub median: f64,

@@ -37,7 +37,6 @@ pub struct FeatureDiscrepancy {
     /// Contribution in the feature's unit; the contributions of all features add up to the discrepancy.
     pub discrepancy: f64,
     /// Warping path of this feature for `sum_of_features`; empty for metrics with one joint path.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<[u32; 2]>,
 }
 

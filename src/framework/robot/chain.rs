@@ -27,8 +27,10 @@ pub struct Gene {
     /// Upper position limit, rad or m; by default pi for continuous joints.
     pub upper: f64,
     /// Velocity limit, rad/s or m/s; `None` if the URDF has none.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub velocity: Option<f64>,
     /// Acceleration limit, rad/s^2 or m/s^2; `None` if the robot's description has none.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub acceleration: Option<f64>,
 }
 

@@ -35,10 +35,13 @@ pub struct JointSummary {
     /// Link on the tip side.
     pub child_link: String,
     /// Position limits `[lower, upper]`, rad or m; absent if the URDF has none.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub limits: Option<[f64; 2]>,
     /// Velocity limit, rad/s or m/s; absent if the URDF has none.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub velocity: Option<f64>,
     /// Name of the joint it follows; absent if it does not mimic.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub mimics: Option<String>,
 }
 

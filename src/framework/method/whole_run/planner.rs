@@ -25,11 +25,11 @@ impl<F: FnMut(&[f64], &mut [f64]) + Send> FeatureMap for F {
 pub struct Trial {
     /// Joints as commanded, rad or m.
     pub joints: Vec<f64>,
-    /// The m features seen; absent if the observation was lost.
+    /// The m features seen; null if the observation was lost.
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub observation: Option<Vec<f64>>,
-    /// The cells seen affected after it, 64 per word, row-major, lowest bit first; absent if cells are not seen.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schema(value_type = Option<Vec<u64>>))]
+    /// The cells seen affected after it, 64 per word, row-major, lowest bit first; null if cells are not seen.
+    #[cfg_attr(feature = "schema", schema(value_type = Option<Vec<u64>>, required = true))]
     pub cells: Option<CellSet>,
     /// The goal the pose was tried for.
     pub goal: usize,
