@@ -1,9 +1,9 @@
-//! A demonstration without its samples, and what the reader found in it.
+//! A demonstration without its samples, and the findings of the reader.
 
 use super::{document, unchanged, versions};
 use crate::app::model::{DemonstrationId, DemonstrationReport, DemonstrationView, StreamView, Timestamp};
 use crate::framework::Feature;
-use crate::framework::demonstration::Finding;
+use crate::framework::demonstration::{Finding, FindingCode, Severity};
 
 document! {
     /// A demonstration without its samples.
@@ -36,7 +36,21 @@ document! {
     /// The reader's findings.
     Report keeps DemonstrationReport {
         demonstration: DemonstrationId,
-        findings: Vec<Finding>,
     }
+    each { findings: Found, }
 }
 versions! { Report keeps DemonstrationReport, "report", [unchanged] }
+
+document! {
+    /// One finding.
+    Found keeps Finding {
+        severity: Severity,
+        code: FindingCode,
+        stream: Option<String>,
+        row: Option<u64>,
+        column: Option<String>,
+        time_s: Option<f64>,
+        message: String,
+        remedy: String,
+    }
+}

@@ -9,11 +9,11 @@ use crate::framework::job::State;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// What happened.
+/// An event by its type.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(in crate::store) enum Event {
-    /// The job is in another state.
+    /// The job changed its state.
     State { state: State, reason: Option<String>, attempt: u32 },
     /// The job made progress.
     Progress { progress: Progress },

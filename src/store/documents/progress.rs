@@ -46,7 +46,7 @@ document! {
 }
 
 document! {
-    /// A trial.
+    /// A trial and its residual.
     Trial keeps TrialProgress {
         repetition: u32,
         index: u32,

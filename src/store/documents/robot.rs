@@ -1,4 +1,6 @@
 //! One version of a robot; its URDF is kept beside it.
+//!
+//! Its specification and its summaries are stored as the core writes them, see [`super::job`].
 
 use super::{document, unchanged, versions};
 use crate::app::model::{RobotId, RobotView, Timestamp};

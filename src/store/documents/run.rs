@@ -1,6 +1,6 @@
 //! A run, its goals and its convergence.
 
-use super::tally::complete_tally;
+use super::tally::{Tally, complete_tally};
 use super::{complete, document, versions};
 use crate::app::model::{
     ActionId, ConvergencePoint, JobId, RobotId, RunGoal, RunGoals as Goals, RunId, RunView, Timestamp, TrajectoryId,
@@ -8,7 +8,7 @@ use crate::app::model::{
 };
 use crate::framework::Feature;
 use crate::framework::infinite_as_null;
-use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
+use crate::framework::method::per_goal::{Provenance, StopReason};
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -30,7 +30,6 @@ document! {
         discrepancy: f64,
         true_discrepancy: Option<f64>,
         valid: bool,
-        provenance: Tally,
         painted_percent: Option<f64>,
         goals: u32,
         digest: String,
@@ -38,6 +37,7 @@ document! {
         trajectory_problem: Option<String>,
         created_at: Timestamp,
     }
+    with { provenance: Tally, }
 }
 versions! { Run keeps RunView, "run", [with_constraints] }
 
@@ -75,8 +75,8 @@ document! {
         winner: Provenance,
         true_discrepancy: Option<f64>,
         feasible: bool,
-        provenance: Tally,
     }
+    with { provenance: Tally, }
 }
 
 /// Version 0 of the builds without constraints executed every candidate and found each one feasible.
@@ -89,7 +89,7 @@ fn with_winners(mut goals: Value) -> Value {
     goals
 }
 
-/// Discrepancy against evaluations.
+/// Discrepancy over evaluations.
 #[derive(Debug, Serialize, Deserialize)]
 pub(in crate::store) struct Convergence {
     points: Vec<Point>,

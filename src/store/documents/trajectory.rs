@@ -2,11 +2,11 @@
 
 use super::{document, unchanged, versions};
 use crate::app::model::{JobId, RobotId, RunId, Timestamp, TrajectoryId, TrajectoryPoint, TrajectoryView};
-use crate::framework::trajectory::Tightest;
+use crate::framework::trajectory::{LimitKind, Tightest};
 use std::collections::BTreeMap;
 
 document! {
-    /// A trajectory.
+    /// A trajectory with its points.
     Trajectory keeps TrajectoryView {
         id: TrajectoryId,
         run: RunId,
@@ -16,12 +16,11 @@ document! {
         fixed_joints: BTreeMap<String, f64>,
         duration_s: f64,
         goal_times_s: Vec<f64>,
-        tightest: Vec<Tightest>,
         notes: Vec<String>,
         sha256: String,
         created_at: Timestamp,
     }
-    each { points: Point, }
+    each { points: Point, tightest: UsedLimit, }
 }
 versions! { Trajectory keeps TrajectoryView, "trajectory", [unchanged] }
 
@@ -32,5 +31,17 @@ document! {
         positions: Vec<f64>,
         velocities: Vec<f64>,
         accelerations: Vec<f64>,
+    }
+}
+
+document! {
+    /// The most used limit of one kind.
+    UsedLimit keeps Tightest {
+        kind: LimitKind,
+        joint: String,
+        time_s: f64,
+        value: f64,
+        limit: f64,
+        ratio: f64,
     }
 }

@@ -1,4 +1,4 @@
-//! A world.
+//! A world; its specification is stored as the core writes it, see [`super::job`].
 
 use super::{document, unchanged, versions};
 use crate::app::model::{Timestamp, WorldId, WorldView};
@@ -6,7 +6,7 @@ use crate::framework::Feature;
 use crate::framework::world::WorldSpec;
 
 document! {
-    /// A world.
+    /// A world with its features.
     World keeps WorldView {
         id: WorldId,
         name: String,
