@@ -1,10 +1,11 @@
 //! A database that an earlier build wrote opens, migrates, reads back the same, and its unfinished jobs end with the
-//! same bits. `tests/fixtures/databases/README.md` says what each one holds.
+//! same bits. `tests/fixtures/databases/README.md` lists the content of each one; `keep_database.rs` makes the next.
 
 use super::server::{Server, digests};
 use flate2::read::GzDecoder;
+use rstest::rstest;
 use serde_json::{Value, json};
-use std::fs::{self, File};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// Fields that an earlier build answered with and today's leaves out on purpose: (JSON pointer pattern, reason).
@@ -41,7 +42,11 @@ fn differences(then: &Value, now: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-async fn reads_back_and_goes_on(folder: &str) {
+#[rstest]
+#[case("schema-0003")]
+#[case("schema-0004")]
+#[tokio::test]
+async fn a_kept_database_reads_back_the_same_and_its_jobs_end_with_the_same_bits(#[case] folder: &str) {
     let folder = kept(folder);
     let data = tempfile::tempdir().unwrap();
     let mut database = File::create(data.path().join("cgda.db")).unwrap();
@@ -69,12 +74,6 @@ async fn reads_back_and_goes_on(folder: &str) {
         assert_eq!(ended["state"], expected["state"], "{ended}");
         assert_eq!(digests(&server, &ended).await, [expected["digest"].as_str().unwrap()], "{}", expected["name"]);
     }
-}
-
-#[tokio::test]
-async fn a_database_of_schema_3_reads_back_the_same_and_its_jobs_end_with_the_same_bits() {
-    assert!(fs::exists(kept("schema-0003")).unwrap());
-    reads_back_and_goes_on("schema-0003").await;
 }
 
 #[test]

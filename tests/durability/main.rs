@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking, helpers included")]
 
 mod experiment;
+mod keep_database;
 mod kept_database;
 mod kill;
 mod server;
