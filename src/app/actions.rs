@@ -87,3 +87,46 @@ impl App {
         Goals::new(stored.features, &stored.goals).map_err(AppError::internal)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::app::bench::Bench;
+    use crate::app::model::{ActionId, ErrorKind, PageQuery};
+    use uuid::Uuid;
+
+    #[tokio::test]
+    async fn a_name_that_is_used_again_is_the_next_version() {
+        let bench = Bench::new();
+        let (first, second, other) = (bench.action("wax").await, bench.action("wax").await, bench.action("wipe").await);
+        assert_eq!([first.version, second.version, other.version], [1, 2, 1]);
+        let listed = bench.app.list_actions(PageQuery::default()).await.unwrap().items;
+        assert_eq!(listed, [other, second, first]);
+    }
+
+    #[tokio::test]
+    async fn a_curve_starts_and_ends_at_the_outer_goals() {
+        let bench = Bench::new();
+        let action = bench.action("wax").await;
+        let goals = bench.app.action_goals(&action.id).await.unwrap().goals;
+        let curve = bench.app.interpolate_action(&action.id, 50).await.unwrap();
+        assert_eq!((curve.values.len(), curve.x[0], curve.x[49]), (50, 0.0, 1.0));
+        for (point, goal) in [(&curve.values[0], &goals[0]), (&curve.values[49], &goals[goals.len() - 1])] {
+            assert!(point.iter().zip(goal).all(|(a, b)| (a - b).abs() < 0.01), "{point:?} is not {goal:?}");
+        }
+        for wrong in [1, 100_001] {
+            assert_eq!(bench.app.interpolate_action(&action.id, wrong).await.unwrap_err().kind, ErrorKind::Malformed);
+        }
+    }
+
+    #[tokio::test]
+    async fn an_export_is_named_after_the_version_and_has_a_line_per_goal() {
+        let bench = Bench::new();
+        let action = bench.action("wax").await;
+        let csv = bench.app.export_action(&action.id, "csv").await.unwrap();
+        let text = String::from_utf8(csv.bytes).unwrap();
+        assert_eq!((csv.file_name.as_str(), text.lines().count()), ("wax-v1.csv", action.goals as usize + 1));
+        assert_eq!(bench.app.export_action(&action.id, "xlsx").await.unwrap_err().code, "unknown_format");
+        let missing = ActionId::from_uuid(Uuid::from_u128(99));
+        assert_eq!(bench.app.export_action(&missing, "csv").await.unwrap_err().kind, ErrorKind::NotFound);
+    }
+}

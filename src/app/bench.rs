@@ -1,4 +1,6 @@
-//! The service on test doubles, with something to work on.
+//! The service on test doubles, with resources to work on.
+
+mod worker;
 
 use crate::app::model::{CreateRobot, CreateWorld};
 use crate::app::model::{
@@ -16,6 +18,7 @@ pub(crate) struct Bench {
     pub app: App,
     pub store: Arc<MemoryStore>,
     pub clock: Arc<TestClock>,
+    pub ids: Arc<TestIds>,
     pub events: Arc<LocalEvents>,
 }
 
@@ -24,13 +27,14 @@ impl Bench {
         let clock = Arc::new(TestClock::new());
         let store = Arc::new(MemoryStore::new(Arc::<TestClock>::clone(&clock)));
         let events = Arc::new(LocalEvents::new());
+        let ids = Arc::new(TestIds::default());
         let app = App::new(Ports {
             store: Arc::<MemoryStore>::clone(&store),
             clock: Arc::<TestClock>::clone(&clock),
-            ids: Arc::new(TestIds::default()),
+            ids: Arc::<TestIds>::clone(&ids),
             events: Arc::<LocalEvents>::clone(&events),
         });
-        Self { app, store, clock, events }
+        Self { app, store, clock, ids, events }
     }
 
     /// Uploads 2 s of a straight line.

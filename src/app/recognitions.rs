@@ -102,3 +102,60 @@ fn view(found: Recognition, actions: &[ActionView]) -> Result<RecognitionView, A
         incomparable: incomparable.collect::<Result<_, AppError>>()?,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::app::bench::Bench;
+    use crate::app::model::{ActionId, AppError, Observed, RecognizeRequest};
+    use crate::framework::Feature;
+    use crate::framework::recognition::Metric;
+    use uuid::Uuid;
+
+    fn request(observed: Observed) -> RecognizeRequest {
+        RecognizeRequest { observed, candidates: Vec::new(), metric: Metric::default(), threshold: None }
+    }
+
+    async fn goals_of(bench: &Bench, action: &ActionId) -> Observed {
+        let goals = bench.app.action_goals(action).await.unwrap();
+        Observed::Rows { features: goals.features, rows: goals.goals }
+    }
+
+    fn place(error: &AppError) -> &str {
+        &error.details[0].pointer
+    }
+
+    #[tokio::test]
+    async fn an_action_is_recognized_by_its_own_goals_in_its_latest_version() {
+        let bench = Bench::new();
+        let (first, second) = (bench.action("wax").await.id, bench.action("wax").await.id);
+        let found = bench.app.recognize(request(goals_of(&bench, &first).await)).await.unwrap();
+        assert_eq!(found.recognized, Some(second));
+        assert_eq!((found.candidates.len(), found.candidates[0].discrepancy), (1, 0.0));
+        let named = RecognizeRequest { candidates: vec![first.clone()], ..request(goals_of(&bench, &first).await) };
+        assert_eq!(bench.app.recognize(named).await.unwrap().recognized, Some(first));
+    }
+
+    #[tokio::test]
+    async fn an_observation_without_an_actions_features_is_incomparable_with_it() {
+        let bench = Bench::new();
+        let action = bench.action("wax").await;
+        let rows = Observed::Rows { features: vec![Feature::new("force", "N")], rows: vec![vec![1.0], vec![2.0]] };
+        let found = bench.app.recognize(request(rows)).await.unwrap();
+        assert_eq!((found.recognized, found.candidates.len()), (None, 0));
+        assert_eq!((&found.incomparable[0].action, &found.incomparable[0].observed_unit), (&action.id, &None));
+    }
+
+    #[tokio::test]
+    async fn every_wrong_part_of_a_question_is_told_by_its_place() {
+        let bench = Bench::new();
+        let action = bench.action("wax").await.id;
+        let observed = goals_of(&bench, &action).await;
+        let missing = vec![action, ActionId::from_uuid(Uuid::from_u128(99))];
+        let unknown = RecognizeRequest { candidates: missing, ..request(observed.clone()) };
+        assert_eq!(place(&bench.app.recognize(unknown).await.unwrap_err()), "/candidates/1");
+        let negative = RecognizeRequest { threshold: Some(-1.0), ..request(observed) };
+        assert_eq!(place(&bench.app.recognize(negative).await.unwrap_err()), "/threshold");
+        let ragged = Observed::Rows { features: vec![Feature::new("x", "mm")], rows: vec![vec![1.0], vec![]] };
+        assert_eq!(place(&bench.app.recognize(request(ragged)).await.unwrap_err()), "/observed/rows");
+    }
+}

@@ -75,3 +75,49 @@ impl App {
         Ok(self.ports.store.delete_robot(id).await?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::app::bench::Bench;
+    use crate::app::model::{CreateRobot, ErrorKind, PageQuery};
+    use crate::framework::robot::RobotSpec;
+    use sha2::{Digest as _, Sha256};
+
+    #[tokio::test]
+    async fn a_robot_is_summarised_and_its_urdf_kept_as_uploaded() {
+        let bench = Bench::new();
+        let robot = bench.robot().await;
+        let urdf = bench.app.robot_urdf(&robot.id).await.unwrap();
+        assert_eq!(robot.urdf_sha256, hex::encode(Sha256::digest(urdf.as_bytes())));
+        assert_eq!((robot.version, robot.chain.free_joints.len()), (1, 3));
+        assert_eq!(bench.robot().await.version, 2);
+        assert_eq!(bench.app.list_robots(PageQuery::default()).await.unwrap().items.len(), 2);
+    }
+
+    #[tokio::test]
+    async fn an_error_in_urdf_and_in_chain_is_told_by_its_place() {
+        let bench = Bench::new();
+        let urdf = bench.app.robot_urdf(&bench.robot().await.id).await.unwrap();
+        let nowhere = RobotSpec { tip_link: Some("nowhere".to_owned()), ..RobotSpec::default() };
+        let cases = [
+            ("/name", CreateRobot { name: String::new(), urdf: urdf.clone(), spec: RobotSpec::default() }),
+            ("/urdf", CreateRobot { name: "r".to_owned(), urdf: "<robot".to_owned(), spec: RobotSpec::default() }),
+            ("/spec", CreateRobot { name: "r".to_owned(), urdf, spec: nowhere }),
+        ];
+        for (place, request) in cases {
+            let error = bench.app.create_robot(request).await.unwrap_err();
+            assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, place), "{error}");
+        }
+    }
+
+    #[tokio::test]
+    async fn a_robot_in_use_is_not_deleted() {
+        let bench = Bench::new();
+        let spare = bench.robot().await;
+        let used = bench.run(false).await.robot;
+        let error = bench.app.delete_robot(&used).await.unwrap_err();
+        assert_eq!((error.kind, error.code), (ErrorKind::Conflict, "in_use"));
+        bench.app.delete_robot(&spare.id).await.unwrap();
+        assert_eq!(bench.app.get_robot(&spare.id).await.unwrap_err().kind, ErrorKind::NotFound);
+    }
+}

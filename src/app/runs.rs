@@ -78,6 +78,44 @@ fn thin<T: Copy>(all: &[T], most: usize) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::bench::Bench;
+    use crate::app::model::JobId;
+    use uuid::Uuid;
+
+    #[tokio::test]
+    async fn runs_are_listed_by_job_and_their_parts_are_read() {
+        let bench = Bench::new();
+        let (first, second) = (bench.run(true).await, bench.run(true).await);
+        let list = async |job| bench.app.list_runs(RunFilter { job }, PageQuery::default()).await.unwrap().items;
+        assert_eq!(list(None).await, [second.clone(), first.clone()]);
+        assert_eq!(list(Some(second.job.clone())).await, [second]);
+        assert!(list(Some(JobId::from_uuid(Uuid::from_u128(99)))).await.is_empty());
+        assert_eq!(bench.app.run_goals(&first.id).await.unwrap().goals.len(), first.goals as usize);
+        assert!(bench.app.run_trials(&first.id).await.unwrap().trials.is_empty());
+    }
+
+    #[tokio::test]
+    async fn a_convergence_is_thinned_to_the_points_asked_for() {
+        let bench = Bench::new();
+        let run = bench.run(false).await.id;
+        let evaluations = async |most| {
+            let points = bench.app.run_convergence(&run, most).await.unwrap().points;
+            points.iter().map(|point| point.evaluations).collect::<Vec<u64>>()
+        };
+        assert_eq!(evaluations(Some(4)).await, [1, 34, 67, 100]);
+        assert_eq!(evaluations(None).await.len(), 100);
+        assert_eq!(bench.app.run_convergence(&run, Some(1)).await.unwrap_err().kind, ErrorKind::Malformed);
+    }
+
+    #[tokio::test]
+    async fn a_run_without_a_trajectory_says_why() {
+        let bench = Bench::new();
+        let (with, without) = (bench.run(true).await, bench.run(false).await);
+        assert_eq!(Some(bench.app.run_trajectory(&with.id).await.unwrap().id), with.trajectory);
+        let error = bench.app.run_trajectory(&without.id).await.unwrap_err();
+        assert_eq!((error.kind, error.code), (ErrorKind::NotFound, "no_trajectory"));
+        assert!(error.message.ends_with("has no trajectory: too steep"), "{error}");
+    }
 
     #[test]
     fn thinning_keeps_both_ends_and_the_order() {

@@ -86,3 +86,33 @@ fn again(problem: &Problem, waypoints: &[Vec<f64>]) -> Result<CheckedTrajectory,
         )
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::app::bench::Bench;
+    use crate::app::model::{ErrorKind, TrajectoryId};
+    use uuid::Uuid;
+
+    #[tokio::test]
+    async fn an_export_is_planned_again_in_every_format() {
+        let bench = Bench::new();
+        let id = bench.run(true).await.trajectory.unwrap();
+        for (format, beginning) in [("csv", "time_s,"), ("json", "{"), ("ros2", "")] {
+            let export = bench.app.export_trajectory(&id, format).await.unwrap();
+            let text = String::from_utf8(export.bytes).unwrap();
+            assert!(text.starts_with(beginning) && text.contains("shoulder_pitch"), "{format}: {text}");
+        }
+        assert_eq!(bench.app.export_trajectory(&id, "pdf").await.unwrap_err().code, "unknown_format");
+        let missing = TrajectoryId::from_uuid(Uuid::from_u128(99));
+        assert_eq!(bench.app.export_trajectory(&missing, "csv").await.unwrap_err().kind, ErrorKind::NotFound);
+    }
+
+    #[tokio::test]
+    async fn a_trajectory_that_is_planned_differently_today_is_not_exported() {
+        let bench = Bench::new();
+        let id = bench.run_with(|trajectory| trajectory.sha256 = "of another version".to_owned()).await;
+        let error = bench.app.export_trajectory(&id, "csv").await.unwrap_err();
+        assert_eq!((error.kind, error.code), (ErrorKind::Conflict, "planned_otherwise"));
+        assert!(error.message.ends_with("run the job again"), "{error}");
+    }
+}

@@ -45,3 +45,38 @@ impl App {
         Ok(self.ports.store.delete_world(id).await?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::app::bench::Bench;
+    use crate::app::model::{CreateWorld, ErrorKind, PageQuery};
+    use crate::framework::Feature;
+    use crate::framework::world::{ToolPositionSpec, WorldSpec};
+
+    #[tokio::test]
+    async fn a_world_names_its_features() {
+        let bench = Bench::new();
+        let world = bench.world().await;
+        assert_eq!(world.features, ["x", "y", "z"].map(|name| Feature::new(name, "mm")));
+        assert_eq!(bench.app.list_worlds(PageQuery::default()).await.unwrap().items, [world]);
+    }
+
+    #[tokio::test]
+    async fn an_invalid_world_is_refused_by_its_place() {
+        let bench = Bench::new();
+        let spec = WorldSpec::ToolPosition(ToolPositionSpec { unit: "inch".to_owned() });
+        let error = bench.app.create_world(CreateWorld { name: "air".to_owned(), spec }).await.unwrap_err();
+        assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/spec"));
+        assert!(bench.app.list_worlds(PageQuery::default()).await.unwrap().items.is_empty());
+    }
+
+    #[tokio::test]
+    async fn a_world_in_use_is_not_deleted() {
+        let bench = Bench::new();
+        let spare = bench.world().await;
+        let used = bench.run(false).await.world;
+        assert_eq!(bench.app.delete_world(&used).await.unwrap_err().code, "in_use");
+        bench.app.delete_world(&spare.id).await.unwrap();
+        assert_eq!(bench.app.delete_world(&spare.id).await.unwrap_err().kind, ErrorKind::NotFound);
+    }
+}

@@ -5,6 +5,8 @@
 //!   one row per finished run. Every table, comparison and export is computed from these and therefore never stale.
 
 mod plan;
+#[cfg(test)]
+mod tests;
 
 use crate::app::model::{
     AppError, CreateJob, ErrorKind, ExperimentComparison, ExperimentId, ExperimentRequest, ExperimentTable,
