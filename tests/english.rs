@@ -25,7 +25,7 @@ const PHRASES: [&str; 9] = [
 ];
 
 /// Folders whose comments still await this wording. Entries leave this list; none joins it.
-const AWAITING: [&str; 5] = ["src/app/", "src/evaluate/", "src/http/", "src/jobs/", "src/store/"];
+const AWAITING: [&str; 3] = ["src/evaluate/", "src/http/", "src/jobs/"];
 
 /// Words that may follow "is no".
 const AFTER_IS_NO: [&str; 5] = ["longer", "more", "less", "better", "worse"];

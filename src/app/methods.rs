@@ -1,4 +1,4 @@
-//! Methods: what a job can search with.
+//! Methods that a job can search with.
 
 use crate::app::App;
 use crate::app::model::{MethodList, MethodView};

@@ -35,7 +35,7 @@ use std::ops::RangeInclusive;
 use std::sync::Arc;
 use tokio::sync::watch;
 
-/// What the service is plugged into.
+/// Ports the service is plugged into.
 #[derive(Clone)]
 pub struct Ports {
     /// Durable storage.
@@ -75,19 +75,19 @@ impl App {
         Self { upload_limit_bytes: bytes, ..self }
     }
 
-    /// The same service on behalf of `caller`: every use-case called on it knows who asks.
+    /// The same service on behalf of `caller`, which every use-case called on it knows.
     #[must_use]
     pub fn as_caller(&self, caller: Caller) -> Self {
         Self { caller, ..self.clone() }
     }
 
-    /// Who asks.
+    /// Caller on whose behalf this service works.
     #[must_use]
     pub fn caller(&self) -> Caller {
         self.caller
     }
 
-    /// Maximum size of one upload, bytes; whoever receives uploads enforces it while they arrive.
+    /// Maximum size of one upload, bytes; the edge that receives uploads enforces it while they arrive.
     #[must_use]
     pub fn upload_limit_bytes(&self) -> usize {
         self.upload_limit_bytes
@@ -105,12 +105,12 @@ impl App {
         self.ready.subscribe()
     }
 
-    /// Tells whether workers run; `false` as soon as the server is asked to stop.
+    /// Sets whether workers run; `false` as soon as the server is asked to stop.
     pub fn set_ready(&self, ready: bool) {
         self.ready.send_replace(ready);
     }
 
-    /// What the service is plugged into, for the workers.
+    /// Ports the service is plugged into, for the workers.
     #[must_use]
     pub fn ports(&self) -> &Ports {
         &self.ports

@@ -1,4 +1,4 @@
-//! Engines behind the Store port; `suite.rs` is what each of them must pass.
+//! Engines behind the Store port; each passes the conformance suite in `suite/`.
 
 mod documents;
 pub mod sqlite;

@@ -66,7 +66,7 @@ impl App {
         }
     }
 
-    /// Newest first.
+    /// Lists jobs, newest first.
     ///
     /// # Errors
     /// `Malformed` page.
@@ -76,7 +76,7 @@ impl App {
         Ok(keyset.page(jobs, |job| job.id.to_string()))
     }
 
-    /// One job.
+    /// Reads one job.
     ///
     /// # Errors
     /// `NotFound`.
@@ -84,26 +84,26 @@ impl App {
         Ok(self.ports.store.job(id).await?)
     }
 
-    /// Asks it to rest at its next checkpoint.
+    /// Asks a job to pause at its next checkpoint.
     ///
     /// # Errors
-    /// `NotFound`; `Conflict` when its state does not allow it.
+    /// `NotFound`; `Conflict` if its state does not allow it.
     pub async fn pause_job(&self, id: &JobId) -> Result<JobView, AppError> {
         self.ask(id, Event::Pause).await
     }
 
-    /// Lets a paused job go on.
+    /// Resumes a paused job.
     ///
     /// # Errors
-    /// `NotFound`; `Conflict` when its state does not allow it.
+    /// `NotFound`; `Conflict` if its state does not allow it.
     pub async fn resume_job(&self, id: &JobId) -> Result<JobView, AppError> {
         self.ask(id, Event::Resume).await
     }
 
-    /// Asks it to end without a result; finished runs are kept.
+    /// Asks a job to end without a result; finished runs are kept.
     ///
     /// # Errors
-    /// `NotFound`; `Conflict` when it ended already.
+    /// `NotFound`; `Conflict` if it has ended already.
     pub async fn cancel_job(&self, id: &JobId) -> Result<JobView, AppError> {
         self.ask(id, Event::Cancel).await
     }
@@ -120,7 +120,7 @@ impl App {
     /// Submits the same resolved job again, with the same seed.
     ///
     /// # Errors
-    /// `NotFound`; by idempotency as [`App::create_job`].
+    /// `NotFound`; with an idempotency key as for [`App::create_job`].
     pub async fn clone_job(&self, id: &JobId, idempotency_key: Option<String>) -> Result<JobView, AppError> {
         let key = idempotency_key.map(|key| checked_key(key, format!("clone {id}").as_bytes())).transpose()?;
         let job = self.get_job(id).await?;

@@ -1,4 +1,4 @@
-//! References of a request: one to nothing is a wrong place of the request.
+//! References of a request; a missing resource is an invalid place of the request.
 
 use crate::app::model::{AppError, FieldError};
 use crate::app::ports::StoreError;

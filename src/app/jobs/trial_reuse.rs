@@ -50,7 +50,7 @@ pub(super) fn setup_key(robot: &RobotView, problem: &Problem, seed: u64, repetit
 }
 
 impl App {
-    /// The trials the job begins with; `request` is told which runs they come from.
+    /// The trials the job begins with; records in `request` the runs they come from.
     pub(super) async fn earlier_trials(
         &self,
         request: &mut ExecutionRequest,

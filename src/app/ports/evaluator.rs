@@ -1,7 +1,7 @@
 //! The Evaluator port: where the trials of an execution are carried out, a simulated world or a robot.
 //!
-//! A job's loop asks the search for candidates, checks them, hands them to the evaluator and tells the search what was
-//! seen. The evaluator decides nothing: it brings its world to the prefix, executes, and observes.
+//! A job's loop asks the search for candidates, checks them, hands them to the evaluator and passes the outcomes on to
+//! the search. The evaluator decides nothing: it brings its world to the prefix, executes, and observes.
 //!
 //! # Invariants of every evaluator
 //! - **A physical trial is never repeated by the program.** A trial has the same [`TrialId`] whenever it is asked for,
@@ -19,7 +19,7 @@
 //! | [`Seen::Observed`] | executed and observed | an evaluation; the search learns from it |
 //! | [`Seen::Lost`] | executed, the observation is missing | an evaluation that teaches nothing; never repeated |
 //! | [`Seen::Failed`] | refused before it began: nothing moved | a failure, not an evaluation |
-//! | [`Seen::Unknown`] | nobody knows whether it was executed | the search is told nothing; the job rests until a person resumes it (the trial is asked for again) or cancels it |
+//! | [`Seen::Unknown`] | whether it was executed is unknown | the search learns nothing; the job rests until a person resumes it (the trial is asked for again) or cancels it |
 //!
 //! [`Seen::Observed`]: crate::framework::execution::Seen::Observed
 //! [`Seen::Lost`]: crate::framework::execution::Seen::Lost
@@ -35,7 +35,7 @@ use async_trait::async_trait;
 /// The run an evaluator is opened for.
 #[derive(Clone, Copy)]
 pub struct RunContext<'a> {
-    /// The job.
+    /// Job of the run.
     pub job: &'a JobId,
     /// Repetition, from 0.
     pub repetition: u32,
@@ -113,7 +113,7 @@ pub trait Evaluator: Send {
     async fn evaluate(&mut self, trials: Trials<'_>, seen: &mut Observations) -> Result<(), EvaluatorError>;
 }
 
-/// Opens evaluators: what the wiring plugs in.
+/// Opens evaluators; plugged in by the wiring.
 #[async_trait]
 pub trait Evaluators: Send + Sync {
     /// Opens the evaluator of a run, which another process may have started.

@@ -1,4 +1,4 @@
-//! What the use-cases need from outside: storage, evaluation, time, ids and seeds, wake-ups.
+//! Ports of the use-cases to the outside: storage, evaluation, time, ids and seeds, wake-ups.
 
 mod clock;
 mod evaluator;

@@ -1,13 +1,13 @@
-//! Rules that every engine of the store keeps, as pure functions: an engine reads, asks a rule, writes the answer.
+//! Rules for every engine of the store, as pure functions: an engine reads, applies a rule and writes its answer.
 
 use super::{Advance, StoreError, Transition};
 use crate::app::model::{DemonstrationView, EventData, EventPage, JobEvent, JobFailure, Timestamp};
 use crate::framework::job::{Event, InvalidTransition, State};
 
-/// How long an idempotency key is kept after its job ended, milliseconds.
+/// Time for which an idempotency key is kept after its job ended, milliseconds.
 const KEEP_KEYS_MS: i64 = 48 * 3_600_000;
 
-/// Keys given before this time, of jobs that ended before it, are forgotten.
+/// The time before which a key must have been given, and its job must have ended, for the key to be forgotten.
 #[must_use]
 pub fn keys_forgotten_before(now: Timestamp) -> Timestamp {
     Timestamp(now.0 - KEEP_KEYS_MS)
@@ -29,19 +29,19 @@ pub fn check_revision(view: &DemonstrationView, if_match: Option<u64>) -> Result
 /// The part of a job that a change of state touches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Standing {
-    /// Its state.
+    /// State of the job.
     pub state: State,
-    /// Why, if there is more to say than the state.
+    /// Reason for the state; `None` if the state says it all.
     pub reason: Option<String>,
-    /// Since when.
+    /// Time of the last change of state.
     pub since: Timestamp,
-    /// How often a worker claimed it.
+    /// Number of times a worker claimed it.
     pub attempt: u32,
-    /// Why it failed.
+    /// Reason of the failure; `None` unless the job failed.
     pub failure: Option<JobFailure>,
-    /// When a worker first started it.
+    /// Time at which a worker first started it.
     pub started_at: Option<Timestamp>,
-    /// When it ended.
+    /// Time at which it ended.
     pub finished_at: Option<Timestamp>,
 }
 
@@ -71,13 +71,13 @@ impl Standing {
         })
     }
 
-    /// The event that tells it.
+    /// The event that reports this state.
     #[must_use]
     pub fn event(&self) -> EventData {
         EventData::State { state: self.state, reason: self.reason.clone(), attempt: self.attempt }
     }
 
-    /// Whether a claim on it stays valid: a job that nobody holds has none.
+    /// Whether a claim on it stays valid: a job that no worker holds has none.
     #[must_use]
     pub fn keeps_claim(&self) -> bool {
         self.state.is_held()
@@ -90,12 +90,12 @@ impl Standing {
     }
 }
 
-/// How a worker was lost.
+/// Cause of the loss of a worker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loss {
     /// The server it belonged to is gone.
     ServerStopped,
-    /// Its lease ran out.
+    /// The lease of the worker ran out.
     LeaseRanOut,
 }
 

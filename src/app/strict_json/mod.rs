@@ -3,7 +3,7 @@
 //!
 //! # Invariants
 //! - Text that is not JSON is `Malformed`; JSON that does not fit is `Invalid` at its JSON pointer.
-//! - What is accepted means the same whichever way it is read.
+//! - Accepted JSON means the same to every reader.
 
 mod shape;
 mod structure;

@@ -1,4 +1,4 @@
-//! Writing what happens to a job: numbered events, and changes of state with the event that tells each.
+//! Events of jobs, numbered, and changes of state, each with the event that reports it.
 
 use super::job_row::JobRow;
 use super::rows::number;
@@ -41,7 +41,7 @@ pub(super) async fn append(
     Ok(())
 }
 
-/// Moves a job to its next state, with the event that tells it.
+/// Moves a job to its next state and appends the event that reports it.
 pub(super) async fn apply(
     connection: &mut SqliteConnection,
     row: &mut JobRow,

@@ -1,4 +1,4 @@
-//! A row of `jobs`, with what the job made.
+//! A row of `jobs` with the results of the job.
 
 use super::rows::{count, found, value};
 use super::statements::statements;

@@ -10,7 +10,7 @@ use std::time::Duration;
 /// The first version without the WAL corruption that earlier ones can suffer.
 const OLDEST_SQLITE: [u32; 3] = [3, 51, 3];
 
-/// Why the server refuses to work on this database.
+/// Reasons why the server does not open a database.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
     /// The linked SQLite may corrupt a database in WAL mode.
@@ -69,7 +69,7 @@ pub(super) fn reading(path: &Path) -> SqliteConnectOptions {
     writing(path).create_if_missing(false).pragma("query_only", "ON")
 }
 
-/// Opens the writing connection, checks what must hold and brings the schema up to date.
+/// Opens the writing connection, checks the gates and brings the schema up to date.
 pub(super) async fn open(path: &Path) -> Result<SqliteConnection, OpenError> {
     let mut connection = writing(path).connect().await?;
     check_version(&mut connection).await?;

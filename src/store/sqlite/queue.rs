@@ -135,7 +135,7 @@ async fn claim(
     Ok(Some(Claimed { claim, job: view, work: documents::read::<Work>(&id, &work)?, checkpoint }))
 }
 
-/// The oldest queued job that may be tried again; those that may not fail here.
+/// The oldest queued job that may be tried again; jobs that crashed too often fail on the way.
 async fn next_healthy(
     connection: &mut SqliteConnection,
     max_crashes: u32,

@@ -1,4 +1,4 @@
-//! Reading rows: documents into what they keep, one at a time or by page.
+//! Reads rows: the contents of documents, one at a time or by page.
 
 use crate::app::model::Keyset;
 use crate::app::ports::StoreError;
@@ -14,7 +14,7 @@ pub(super) fn json<T: Serialize>(value: &T) -> Result<String, StoreError> {
         .map_err(|error| StoreError::Corrupt { what: "parameter".to_owned(), cause: error.to_string() })
 }
 
-/// The value of JSON that a statement made.
+/// The value of JSON that a statement returned.
 pub(super) fn value<T: DeserializeOwned>(what: &str, text: &str) -> Result<T, StoreError> {
     serde_json::from_str(text).map_err(|error| StoreError::Corrupt { what: what.to_owned(), cause: error.to_string() })
 }
@@ -44,7 +44,7 @@ pub(super) fn count(value: i64) -> u64 {
     u64::try_from(value).unwrap_or(0)
 }
 
-/// The row found, or that there is none.
+/// The row found, or `NotFound`.
 pub(super) fn found<T>(row: Option<T>, kind: &'static str, id: &str) -> Result<T, StoreError> {
     row.ok_or_else(|| StoreError::NotFound { kind, id: id.to_owned() })
 }

@@ -1,4 +1,4 @@
-//! The suite, and what only SQLite can do wrong.
+//! The conformance suite on SQLite, and tests of faults that only SQLite can have.
 
 use super::*;
 use crate::app::model::DemonstrationId;

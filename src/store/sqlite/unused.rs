@@ -1,4 +1,4 @@
-//! Deleting what no job uses.
+//! Deletes resources that no job uses.
 
 use super::rows::count;
 use crate::app::ports::StoreError;

@@ -28,7 +28,7 @@ trait Queued: Send {
     /// Runs the operation; whether its savepoint is kept.
     fn run<'c>(&'c mut self, connection: &'c mut SqliteConnection) -> BoxFuture<'c, bool>;
 
-    /// Answers the caller; `failed` is why the commit did not happen.
+    /// Answers the caller; `failed` is the reason if the commit did not happen.
     fn answer(self: Box<Self>, failed: Option<&StoreError>);
 }
 

@@ -1,4 +1,4 @@
-//! What the promises are tried on.
+//! Resources to try the promises on.
 
 use crate::app::model::{
     ActionId, CreateJob, DemonstrationId, DemonstrationReport, DemonstrationView, EventData, ExperimentId,

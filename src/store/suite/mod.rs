@@ -1,4 +1,4 @@
-//! What every engine behind the Store port must do; each function is one promise, run on a fresh store.
+//! Promises of every engine behind the Store port: one function each, run on a fresh store.
 
 pub(in crate::store) mod demonstrations;
 pub(in crate::store) mod experiments;
@@ -9,7 +9,7 @@ pub(in crate::store) mod queue;
 pub(in crate::store) mod robots;
 pub(in crate::store) mod runs;
 
-/// One test per promise; `$fresh` opens an empty store and what keeps it alive.
+/// One test per promise; `$fresh` opens an empty store and returns it with the guard that keeps it alive.
 macro_rules! conformance {
     ($fresh:expr) => {
         $crate::store::suite::conformance! { $fresh;

@@ -1,4 +1,4 @@
-//! Storage of actions; a job that makes one writes it with its progress.
+//! Storage of actions; a job writes a new one together with its progress.
 
 use super::StoreError;
 use crate::app::model::{ActionGoals, ActionId, ActionView, Keyset};
@@ -7,10 +7,10 @@ use async_trait::async_trait;
 /// Actions, written once.
 #[async_trait]
 pub trait Actions: Send + Sync {
-    /// One action.
+    /// Reads one action.
     async fn action(&self, id: &ActionId) -> Result<ActionView, StoreError>;
-    /// Its goals.
+    /// The goals of an action.
     async fn action_goals(&self, id: &ActionId) -> Result<ActionGoals, StoreError>;
-    /// Actions.
+    /// Lists actions.
     async fn actions(&self, keyset: &Keyset) -> Result<Vec<ActionView>, StoreError>;
 }

@@ -7,11 +7,11 @@ use async_trait::async_trait;
 /// A demonstration to keep.
 #[derive(Debug, Clone)]
 pub struct NewDemonstration {
-    /// What is shown of it.
+    /// The demonstration, as shown.
     pub view: DemonstrationView,
-    /// What the reader found.
+    /// Findings of the reader.
     pub report: DemonstrationReport,
-    /// Its samples, encoded.
+    /// Encoded samples.
     pub samples: Vec<u8>,
 }
 
@@ -20,15 +20,15 @@ pub struct NewDemonstration {
 pub trait Demonstrations: Send + Sync {
     /// Keeps a demonstration.
     async fn insert_demonstration(&self, new: NewDemonstration) -> Result<(), StoreError>;
-    /// One demonstration.
+    /// Reads one demonstration.
     async fn demonstration(&self, id: &DemonstrationId) -> Result<DemonstrationView, StoreError>;
-    /// What the reader found.
+    /// Findings of the reader.
     async fn demonstration_report(&self, id: &DemonstrationId) -> Result<DemonstrationReport, StoreError>;
     /// Encoded samples, checked against the digest stored with them.
     async fn demonstration_samples(&self, id: &DemonstrationId) -> Result<Vec<u8>, StoreError>;
-    /// One item more than `keyset.limit`, newest first; likewise every list.
+    /// Lists demonstrations, newest first: one item more than `keyset.limit`, as every list.
     async fn demonstrations(&self, keyset: &Keyset) -> Result<Vec<DemonstrationView>, StoreError>;
-    /// Those whose samples have this digest.
+    /// Demonstrations whose samples have this digest.
     async fn demonstrations_with_content(&self, sha256: &str) -> Result<Vec<DemonstrationId>, StoreError>;
     /// Changes a demonstration and counts its revision up.
     async fn patch_demonstration(

@@ -4,15 +4,15 @@ use crate::app::model::{AppError, ErrorKind, JobId};
 use crate::framework::job::InvalidTransition;
 use std::sync::Arc;
 
-/// Why the store did not do what was asked.
+/// Reasons why the store rejected or failed an operation.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum StoreError {
     /// No such row.
     #[error("there is no {kind} {id}")]
     NotFound {
-        /// What was looked for.
+        /// Kind of the resource.
         kind: &'static str,
-        /// Its id.
+        /// Id of the resource.
         id: String,
     },
     /// The row has another revision.
@@ -31,13 +31,13 @@ pub enum StoreError {
     /// Another claim, or none, holds the job.
     #[error("the lease of {job} is lost")]
     LeaseLost {
-        /// The job.
+        /// Job of the claim.
         job: JobId,
     },
     /// The idempotency key was used with another body.
     #[error("idempotency key {key:?} was used with another body")]
     KeyReused {
-        /// The key.
+        /// Key of the request.
         key: String,
     },
     /// Something still names the row.
@@ -45,15 +45,15 @@ pub enum StoreError {
     InUse {
         /// The row.
         id: String,
-        /// How many name it.
+        /// Number of jobs that name it.
         count: u64,
     },
-    /// What was stored cannot be read back.
+    /// A stored value cannot be read back.
     #[error("stored {what} cannot be read: {cause}")]
     Corrupt {
-        /// Which value.
+        /// Description of the value.
         what: String,
-        /// What is wrong with it.
+        /// Reason why it cannot be read.
         cause: String,
     },
     /// No room left to write.

@@ -8,21 +8,21 @@ use async_trait::async_trait;
 /// An experiment to keep.
 #[derive(Debug, Clone)]
 pub struct NewExperiment {
-    /// What is shown of it; `state` and `finished_runs` are read from its job and its rows.
+    /// The experiment, as shown; `state` and `finished_runs` are read from its job and its rows.
     pub view: ExperimentView,
-    /// All it takes to run it.
+    /// The plan of the experiment.
     pub plan: Plan,
 }
 
-/// Experiments: the plan, written with its job, and the rows of the runs that ended.
+/// Experiments: the plan, written with its job, and the rows of finished runs.
 #[async_trait]
 pub trait Experiments: Send + Sync {
-    /// One experiment.
+    /// Reads one experiment.
     async fn experiment(&self, id: &ExperimentId) -> Result<ExperimentView, StoreError>;
-    /// Experiments.
+    /// Lists experiments.
     async fn experiments(&self, keyset: &Keyset) -> Result<Vec<ExperimentView>, StoreError>;
-    /// All it takes to run it.
+    /// The plan of the experiment.
     async fn experiment_plan(&self, id: &ExperimentId) -> Result<Plan, StoreError>;
-    /// Its finished runs by cell, then repetition; none for an experiment that is not there.
+    /// Finished runs ordered by cell, then repetition; empty if there is no such experiment.
     async fn experiment_rows(&self, id: &ExperimentId, filter: &RowFilter) -> Result<Vec<RunRow>, StoreError>;
 }

@@ -16,24 +16,24 @@ pub struct IdempotencyKey {
 /// A job to submit.
 #[derive(Debug, Clone)]
 pub struct NewJob {
-    /// What is shown of it, in state `Queued`.
+    /// The job, as shown, in state `Queued`.
     pub view: JobView,
-    /// All it needs.
+    /// Work for a worker.
     pub work: Work,
-    /// What it names: it cannot be deleted as long as the job is kept.
+    /// Resources it names, which cannot be deleted as long as the job is kept.
     pub uses: Usage,
-    /// The experiment it runs, kept together with it.
+    /// Experiment it runs, stored together with it.
     pub experiment: Option<NewExperiment>,
 }
 
 /// Resources a job names.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Usage {
-    /// Action.
+    /// Action to execute.
     pub action: Option<ActionId>,
-    /// Robot.
+    /// Robot that executes it.
     pub robot: Option<RobotId>,
-    /// World.
+    /// World it is executed in.
     pub world: Option<WorldId>,
 }
 
@@ -42,7 +42,7 @@ pub struct Usage {
 pub enum Submitted {
     /// The job is new.
     Created(JobView),
-    /// The key was used with this body before; this is the job it made.
+    /// The key was used with this body before, for this job.
     Existing(JobView),
 }
 
@@ -51,13 +51,13 @@ pub enum Submitted {
 pub trait Jobs: Send + Sync {
     /// Submits a job; with a key, once.
     async fn submit(&self, new: NewJob, key: Option<IdempotencyKey>) -> Result<Submitted, StoreError>;
-    /// The job that `key` made, if it made one.
+    /// The job submitted with `key`; `None` if there is none.
     async fn submitted(&self, key: &IdempotencyKey) -> Result<Option<JobView>, StoreError>;
     /// One job.
     async fn job(&self, id: &JobId) -> Result<JobView, StoreError>;
-    /// All a job needs.
+    /// The work of a job.
     async fn work(&self, id: &JobId) -> Result<Work, StoreError>;
-    /// Jobs.
+    /// Lists jobs.
     async fn jobs(&self, filter: &JobFilter, keyset: &Keyset) -> Result<Vec<JobView>, StoreError>;
     /// At most `limit` events after `after_seq`.
     async fn events(&self, id: &JobId, after_seq: u64, limit: u32) -> Result<EventPage, StoreError>;

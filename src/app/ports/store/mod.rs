@@ -2,10 +2,10 @@
 //!
 //! # Invariants of every engine
 //! - An answer `Ok` to a write means durable.
-//! - A write is done whole or not at all, also when the caller goes away before the answer.
-//! - Every write of a worker carries its claim; when the claim does not hold the job any more the answer is
+//! - A write is done whole or not at all, even if the caller goes away before the answer.
+//! - Every write of a worker carries its claim; if the claim no longer holds the job, the answer is
 //!   [`StoreError::LeaseLost`] and nothing is written.
-//! - Events of a job are numbered from 1 without gaps; each is written together with what it tells.
+//! - Events of a job are numbered from 1 without gaps; each is written together with the change it reports.
 
 mod actions;
 mod demonstrations;

@@ -10,9 +10,9 @@ use std::time::Duration;
 /// The right to write for a job: void as soon as the job was taken back, which may happen when the lease ran out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
-    /// The job.
+    /// Job it holds.
     pub job: JobId,
-    /// Random, one for each claim.
+    /// Random text, another one for each claim.
     pub token: String,
 }
 
@@ -21,22 +21,22 @@ pub struct Claim {
 pub struct Claimed {
     /// The right to write.
     pub claim: Claim,
-    /// The job, in state `Preparing`.
+    /// Job, in state `Preparing`.
     pub job: JobView,
-    /// All it needs.
+    /// Work to do.
     pub work: Work,
-    /// Its last checkpoint.
+    /// Last checkpoint of the job.
     pub checkpoint: Option<Vec<u8>>,
 }
 
 /// A change of state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transition {
-    /// What happens.
+    /// Event that causes the change.
     pub event: Event,
-    /// Why.
+    /// Reason, if the event alone does not say it.
     pub reason: Option<String>,
-    /// With `Fail`: what is shown to the user.
+    /// Failure to show to the user, with `Fail`.
     pub failure: Option<JobFailure>,
 }
 
@@ -48,7 +48,7 @@ impl Transition {
     }
 }
 
-/// What a worker writes in one transaction, in this order.
+/// One transaction of a worker, written in this order.
 #[derive(Debug, Clone, Default)]
 pub struct Advance {
     /// Runs that ended.
@@ -59,9 +59,9 @@ pub struct Advance {
     pub action: Option<(ActionView, ActionGoals)>,
     /// Progress to show.
     pub progress: Option<JobProgress>,
-    /// Where to go on after a crash. A checkpoint is progress: it sets the count of crashes back to 0.
+    /// State to resume from after a crash. A checkpoint is progress: it sets the count of crashes back to 0.
     pub checkpoint: Option<Vec<u8>>,
-    /// Events that tell it.
+    /// Events that report it.
     pub events: Vec<EventData>,
     /// The change of state, and its event last.
     pub transition: Option<Transition>,
@@ -83,7 +83,7 @@ pub trait Queue: Send + Sync {
     ) -> Result<Option<Claimed>, StoreError>;
     /// Prolongs a lease. Returns the job's state.
     async fn heartbeat(&self, claim: &Claim, lease: Duration) -> Result<State, StoreError>;
-    /// What a worker has done. Returns the job's state.
+    /// Writes what a worker has done. Returns the job's state.
     async fn advance(&self, claim: &Claim, step: Advance, at: Timestamp) -> Result<State, StoreError>;
     /// Takes back jobs whose lease ran out. Returns them.
     async fn reap(&self, at: Timestamp) -> Result<Vec<JobId>, StoreError>;

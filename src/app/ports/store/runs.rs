@@ -8,42 +8,42 @@ use async_trait::async_trait;
 /// A finished repetition to keep.
 #[derive(Debug, Clone)]
 pub struct NewRun {
-    /// What is shown of it.
+    /// The run, as shown.
     pub view: RunView,
-    /// Its goals.
+    /// Goals of the run.
     pub goals: RunGoals,
-    /// Its convergence.
+    /// Convergence of the run.
     pub convergence: Vec<ConvergencePoint>,
-    /// Its trajectory.
+    /// Trajectory of the run; `None` if it has none.
     pub trajectory: Option<TrajectoryView>,
-    /// Its trials, where the method remembers them.
+    /// Trials of the run, empty unless the method plans the whole run.
     pub trials: KeptTrials,
 }
 
 /// The trials of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct KeptTrials {
-    /// What decides what a pose shows, as a digest; none where that changes with time.
+    /// Digest of everything that determines an observation; `None` if no other run can share the trials.
     pub setting: Option<String>,
-    /// In the order they were made.
+    /// Trials in the order they were made.
     pub trials: Vec<Trial>,
 }
 
 /// Runs, written once.
 #[async_trait]
 pub trait Runs: Send + Sync {
-    /// One run.
+    /// Reads one run.
     async fn run(&self, id: &RunId) -> Result<RunView, StoreError>;
-    /// Its goals.
+    /// Goals of the run.
     async fn run_goals(&self, id: &RunId) -> Result<RunGoals, StoreError>;
-    /// Its convergence.
+    /// Convergence of the run.
     async fn run_convergence(&self, id: &RunId) -> Result<Vec<ConvergencePoint>, StoreError>;
-    /// Its trials; none of a run without any, or of no run.
+    /// The trials of a run; empty if it has none or does not exist.
     async fn run_trials(&self, id: &RunId) -> Result<KeptTrials, StoreError>;
     /// Runs with trials of this setting, newest first, at most `limit`.
     async fn runs_on(&self, setting: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError>;
-    /// Runs.
+    /// Lists runs.
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError>;
-    /// One trajectory.
+    /// Reads one trajectory.
     async fn trajectory(&self, id: &TrajectoryId) -> Result<TrajectoryView, StoreError>;
 }

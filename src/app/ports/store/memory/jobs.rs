@@ -23,7 +23,7 @@ impl Job {
         self.events.push(JobEvent { seq: self.view.last_seq, job: self.view.id.clone(), at, data });
     }
 
-    /// Moves the job to its next state, with the event that tells it.
+    /// Moves the job to its next state and appends the event that reports it.
     pub(super) fn apply(&mut self, transition: &Transition, at: Timestamp) -> Result<State, StoreError> {
         let standing = self.standing().moved(transition, at)?;
         let event = standing.event();
