@@ -4,14 +4,14 @@ use crate::app::model::{
     ActionGoals, ActionId, ActionView, AppError, CreateJob, ErrorKind, Export, GeneralizationRequest, Interpolation,
     JobView, Keyset, Page, PageQuery, limits,
 };
-use crate::app::{App, compute, unknown_format, within};
+use crate::app::{UseCases, compute, unknown_format, within};
 use crate::framework::generalization::{Goals, RbfSpec, goals_to_csv, interpolate};
 
-impl App {
+impl UseCases {
     /// Starts a generalization job, whose result names the action.
     ///
     /// # Errors
-    /// `Invalid` request; with an idempotency key as for [`App::create_job`].
+    /// `Invalid` request; with an idempotency key as for [`UseCases::create_job`].
     pub async fn create_action(
         &self,
         request: GeneralizationRequest,

@@ -7,7 +7,7 @@ use crate::app::model::{
     DemonstrationId, GeneralizationRequest, RobotView, UploadDemonstration, UploadFile, UploadOptions, WorldView,
 };
 use crate::app::ports::{LocalEvents, MemoryStore, TestClock, TestIds};
-use crate::app::{App, Ports};
+use crate::app::{App, Caller, Ports, UseCases};
 use crate::framework::generalization::Weighting;
 use crate::framework::recognition::Metric;
 use crate::reproduce::shipped;
@@ -15,7 +15,8 @@ use std::sync::Arc;
 
 /// The service and the doubles it stands on.
 pub(crate) struct Bench {
-    pub app: App,
+    pub app: UseCases,
+    pub ports: Ports,
     pub store: Arc<MemoryStore>,
     pub clock: Arc<TestClock>,
     pub ids: Arc<TestIds>,
@@ -28,13 +29,14 @@ impl Bench {
         let store = Arc::new(MemoryStore::new(Arc::<TestClock>::clone(&clock)));
         let events = Arc::new(LocalEvents::new());
         let ids = Arc::new(TestIds::default());
-        let app = App::new(Ports {
+        let ports = Ports {
             store: Arc::<MemoryStore>::clone(&store),
             clock: Arc::<TestClock>::clone(&clock),
             ids: Arc::<TestIds>::clone(&ids),
             events: Arc::<LocalEvents>::clone(&events),
-        });
-        Self { app, store, clock, ids, events }
+        };
+        let app = App::new(ports.clone()).on_behalf_of(Caller::LocalOperator);
+        Self { app, ports, store, clock, ids, events }
     }
 
     /// Uploads 2 s of a straight line.

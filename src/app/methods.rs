@@ -1,10 +1,10 @@
 //! Methods that a job can search with.
 
-use crate::app::App;
+use crate::app::UseCases;
 use crate::app::model::{MethodList, MethodView};
 use crate::framework::method::catalogue;
 
-impl App {
+impl UseCases {
     /// Lists all methods with their parameters.
     #[must_use]
     pub fn list_methods(&self) -> MethodList {

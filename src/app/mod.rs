@@ -1,7 +1,8 @@
 //! The one service layer: use-cases and the ports they need.
 //!
 //! # Architecture Invariants
-//! - A use-case is one method of [`App`], the same for REST and gRPC; the request and view types are the REST bodies.
+//! - A use-case is one method of [`UseCases`], the same for REST and gRPC; the request and view types are the REST bodies.
+//! - Use-cases are only had on behalf of a [`Caller`], from [`App::on_behalf_of`].
 //! - Everything that is not pure comes through a port: the store, the clock, the source of ids and seeds.
 //! - What a job needs is resolved when it is submitted and stored with it: later changes of what it names do not
 //!   reach it.
@@ -9,7 +10,7 @@
 mod access;
 pub mod actions;
 #[cfg(test)]
-mod bench;
+pub(crate) mod bench;
 mod caller;
 pub mod demonstrations;
 pub mod experiments;
@@ -54,6 +55,13 @@ pub struct App {
     ports: Ports,
     ready: watch::Sender<bool>,
     upload_limit_bytes: usize,
+}
+
+/// The use-cases of the service, on behalf of one caller.
+#[derive(Clone)]
+pub struct UseCases {
+    ports: Ports,
+    upload_limit_bytes: usize,
     caller: Caller,
 }
 
@@ -61,12 +69,7 @@ impl App {
     /// The service on these ports; not ready yet.
     #[must_use]
     pub fn new(ports: Ports) -> Self {
-        Self {
-            ports,
-            ready: watch::Sender::new(false),
-            upload_limit_bytes: limits::DEFAULT_UPLOAD_BYTES,
-            caller: Caller::LocalOperator,
-        }
+        Self { ports, ready: watch::Sender::new(false), upload_limit_bytes: limits::DEFAULT_UPLOAD_BYTES }
     }
 
     /// The same service with another limit on the bytes of one upload.
@@ -75,22 +78,10 @@ impl App {
         Self { upload_limit_bytes: bytes, ..self }
     }
 
-    /// The same service on behalf of `caller`, which every use-case called on it knows.
+    /// The use-cases on behalf of `caller`.
     #[must_use]
-    pub fn as_caller(&self, caller: Caller) -> Self {
-        Self { caller, ..self.clone() }
-    }
-
-    /// Caller on whose behalf this service works.
-    #[must_use]
-    pub fn caller(&self) -> Caller {
-        self.caller
-    }
-
-    /// Maximum size of one upload, bytes; the edge that receives uploads enforces it while they arrive.
-    #[must_use]
-    pub fn upload_limit_bytes(&self) -> usize {
-        self.upload_limit_bytes
+    pub fn on_behalf_of(&self, caller: Caller) -> UseCases {
+        UseCases { ports: self.ports.clone(), upload_limit_bytes: self.upload_limit_bytes, caller }
     }
 
     /// Whether workers run and the server is not stopping.
@@ -114,6 +105,14 @@ impl App {
     #[must_use]
     pub fn ports(&self) -> &Ports {
         &self.ports
+    }
+}
+
+impl UseCases {
+    /// Maximum size of one upload, bytes; whoever receives uploads enforces it while they arrive.
+    #[must_use]
+    pub fn upload_limit_bytes(&self) -> usize {
+        self.upload_limit_bytes
     }
 
     fn now(&self) -> Timestamp {

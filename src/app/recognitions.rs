@@ -4,12 +4,12 @@ use crate::app::model::{
     ActionId, ActionView, AppError, ErrorKind, IncomparableCandidate, Observed, PageQuery, RecognitionCandidate,
     RecognitionView, RecognizeRequest, limits,
 };
-use crate::app::{App, compute};
+use crate::app::{UseCases, compute};
 use crate::framework::generalization::Goals;
 use crate::framework::recognition::{Recognition, RecognizeError, RecognizeSpec, observed_rows, recognize};
 use std::collections::{BTreeMap, BTreeSet};
 
-impl App {
+impl UseCases {
     /// Compares an observation with the candidates, synchronously.
     ///
     /// # Errors

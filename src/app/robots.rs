@@ -2,7 +2,7 @@
 
 use crate::app::model::{AppError, CreateRobot, Keyset, Page, PageQuery, RobotId, RobotView};
 use crate::app::ports::NewRobot;
-use crate::app::{App, chain_text, check_name, compute};
+use crate::app::{UseCases, chain_text, check_name, compute};
 use crate::framework::robot::{Chain, ChainSummary, RobotModel, RobotSpec, RobotSummary, summarize, summarize_chain};
 use sha2::{Digest as _, Sha256};
 
@@ -14,7 +14,7 @@ fn read(urdf: &str, spec: &RobotSpec) -> Result<(RobotSummary, ChainSummary), Ap
     Ok((summarize(&model), summarize_chain(&chain)))
 }
 
-impl App {
+impl UseCases {
     /// Checks and stores a robot.
     ///
     /// # Errors

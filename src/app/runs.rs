@@ -4,9 +4,9 @@ use crate::app::model::{
     AppError, Convergence, ErrorKind, Keyset, Page, PageQuery, RunFilter, RunGoals, RunId, RunTrials, RunView,
     TrajectoryView, limits,
 };
-use crate::app::{App, within};
+use crate::app::{UseCases, within};
 
-impl App {
+impl UseCases {
     /// Lists runs, newest first.
     ///
     /// # Errors

@@ -4,7 +4,7 @@
 //! differs from the stored one.
 
 use crate::app::model::{AppError, ErrorKind, Export, TrajectoryId, TrajectoryView, Work};
-use crate::app::{App, chain_text, compute, unknown_format};
+use crate::app::{UseCases, chain_text, compute, unknown_format};
 use crate::framework::execution::Problem;
 use crate::framework::robot::{Chain, RobotModel};
 use crate::framework::trajectory::{CheckedTrajectory, PlanSpec, export, plan};
@@ -31,7 +31,7 @@ pub fn digest(trajectory: &CheckedTrajectory) -> String {
     hex::encode(hash.finalize())
 }
 
-impl App {
+impl UseCases {
     /// Reads one trajectory with its points.
     ///
     /// # Errors

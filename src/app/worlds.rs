@@ -1,10 +1,10 @@
 //! Worlds: where effects happen.
 
 use crate::app::model::{AppError, CreateWorld, Keyset, Page, PageQuery, WorldId, WorldView};
-use crate::app::{App, chain_text, check_name};
+use crate::app::{UseCases, chain_text, check_name};
 use crate::framework::world::{self};
 
-impl App {
+impl UseCases {
     /// Checks and stores a world.
     ///
     /// # Errors

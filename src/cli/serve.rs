@@ -3,7 +3,7 @@
 mod demo;
 
 use crate::app::ports::LocalEvents;
-use crate::app::{Access, App, Ports};
+use crate::app::{Access, App, Caller, Ports};
 use crate::config::{Config, Flags, LogFormat, ServerConfig};
 use crate::evaluate::{PacedEvaluators, Simulations};
 use crate::jobs::{Runner, Settings};
@@ -112,7 +112,7 @@ async fn serve(config: &Config, arguments: &ServeArguments) -> anyhow::Result<()
     app.set_ready(true);
     announce(address, token.expose_secret())?;
     if arguments.demo {
-        tokio::spawn(demo::fill(app.clone()));
+        tokio::spawn(demo::fill(app.on_behalf_of(Caller::LocalOperator)));
     }
     stop.cancelled().await;
     app.set_ready(false);

@@ -2,7 +2,7 @@
 
 use super::error::status;
 use crate::app::model::{AppError, ErrorKind};
-use crate::app::{Access, App, Caller};
+use crate::app::{Access, App, Caller, UseCases};
 use tonic::service::Interceptor;
 use tonic::{Request, Status};
 
@@ -31,10 +31,10 @@ impl Interceptor for Guard {
 ///
 /// # Errors
 /// `INTERNAL` for a service behind no guard.
-pub fn as_caller<T>(app: &App, request: &Request<T>) -> Result<App, Status> {
+pub fn as_caller<T>(app: &App, request: &Request<T>) -> Result<UseCases, Status> {
     let caller = request.extensions().get::<Caller>();
     let caller = caller.ok_or_else(|| status(AppError::internal("a service behind no authentication")))?;
-    Ok(app.as_caller(*caller))
+    Ok(app.on_behalf_of(*caller))
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ impl DemonstrationService for Service {
         request: Request<Streaming<proto::UploadRequest>>,
     ) -> Result<Response<proto::Demonstration>, Status> {
         let app = as_caller(&self.0, &request)?;
-        let upload = self.receive(request.into_inner()).await?;
+        let upload = receive(request.into_inner(), app.upload_limit_bytes()).await?;
         let view = app.upload_demonstration(upload).await.map_err(status)?;
         Ok(Response::new(view.into()))
     }
@@ -103,14 +103,12 @@ impl DemonstrationService for Service {
     }
 }
 
-impl Service {
-    async fn receive(&self, mut parts: Streaming<proto::UploadRequest>) -> Result<UploadDemonstration, Status> {
-        let mut assembly = Assembly::new(self.0.upload_limit_bytes());
-        while let Some(request) = parts.message().await? {
-            assembly.take(request.part).map_err(status)?;
-        }
-        assembly.finish().map_err(status)
+async fn receive(mut parts: Streaming<proto::UploadRequest>, limit: usize) -> Result<UploadDemonstration, Status> {
+    let mut assembly = Assembly::new(limit);
+    while let Some(request) = parts.message().await? {
+        assembly.take(request.part).map_err(status)?;
     }
+    assembly.finish().map_err(status)
 }
 
 /// An upload, assembled part by part.

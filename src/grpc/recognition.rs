@@ -5,8 +5,8 @@ use super::convert::recognition::{question, request};
 use super::convert::{self, all};
 use super::error::status;
 use super::proto;
-use crate::app::App;
 use crate::app::model::{AppError, ErrorKind, Observed, limits};
+use crate::app::{App, UseCases};
 use crate::framework::Feature;
 use futures_util::StreamExt as _;
 use futures_util::stream::{BoxStream, try_unfold};
@@ -48,7 +48,7 @@ impl RecognitionService for Service {
 
 /// One online recognition: all rows so far, and the stream of further ones.
 struct Session {
-    app: App,
+    app: UseCases,
     parts: Streaming<proto::RecognizeOnlineRequest>,
     question: proto::RecognitionQuestion,
     features: Vec<Feature>,

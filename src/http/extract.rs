@@ -4,7 +4,7 @@ use super::problem::Problem;
 use super::{Settings, body};
 use crate::app::model::{AppError, ErrorKind};
 use crate::app::strict_json;
-use crate::app::{App, Caller};
+use crate::app::{App, Caller, UseCases};
 use axum::extract::{FromRef, FromRequest, FromRequestParts, Request};
 use axum::http::header::{CONTENT_TYPE, IF_MATCH};
 use axum::http::request::Parts;
@@ -41,7 +41,7 @@ impl<T: Serialize> IntoResponse for Json<T> {
 }
 
 /// The use-cases on behalf of whoever `auth.rs` has admitted.
-pub struct AsCaller(pub App);
+pub struct AsCaller(pub UseCases);
 
 impl<S: Send + Sync> FromRequestParts<S> for AsCaller
 where
@@ -52,7 +52,7 @@ where
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
         let caller = parts.extensions.get::<Caller>();
         let caller = caller.ok_or_else(|| AppError::internal("a handler behind no authentication"))?;
-        Ok(Self(App::from_ref(state).as_caller(*caller)))
+        Ok(Self(App::from_ref(state).on_behalf_of(*caller)))
     }
 }
 

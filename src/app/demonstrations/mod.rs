@@ -12,14 +12,14 @@ use crate::app::model::{
     PageQuery, PatchDemonstration, SamplesQuery, SamplesView, StreamView, UploadDemonstration,
 };
 use crate::app::ports::NewDemonstration;
-use crate::app::{App, check_name, compute, json_pointer, unknown_format};
+use crate::app::{UseCases, check_name, compute, json_pointer, unknown_format};
 use crate::framework::Feature;
 use crate::framework::demonstration::{
     Demonstration, Finding, FindingCode, ReadResult, SourceFile, content_hash, read_files,
 };
 use sha2::{Digest as _, Sha256};
 
-impl App {
+impl UseCases {
     /// Parses and stores an upload.
     ///
     /// # Errors
@@ -31,7 +31,7 @@ impl App {
         if upload.files.is_empty() {
             return Err(AppError::field("/files", "missing_file", "an upload needs at least one file"));
         }
-        let upload_limit_bytes = self.upload_limit_bytes();
+        let upload_limit_bytes = self.upload_limit_bytes;
         let (demonstration, mut findings, sha256, samples) =
             compute(move || read(upload, upload_limit_bytes)).await??;
         for twin in self.ports.store.demonstrations_with_content(&sha256).await? {

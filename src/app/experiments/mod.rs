@@ -12,14 +12,14 @@ use crate::app::model::{
     AppError, CreateJob, ErrorKind, ExperimentComparison, ExperimentId, ExperimentRequest, ExperimentTable,
     ExperimentView, Export, JobView, Keyset, Page, PageQuery, RowFilter,
 };
-use crate::app::{App, compute, out_of_bounds, unknown_format};
+use crate::app::{UseCases, compute, out_of_bounds, unknown_format};
 use crate::framework::experiment::{Experiment, Quantity, RunId, RunRow, export};
 
-impl App {
+impl UseCases {
     /// Submits an experiment; the job's result names it immediately.
     ///
     /// # Errors
-    /// As for [`App::create_job`].
+    /// As for [`UseCases::create_job`].
     pub async fn create_experiment(
         &self,
         request: ExperimentRequest,

@@ -2,13 +2,13 @@
 //! as a run would.
 
 use crate::app::model::{AppError, EveryTable, ExperimentRequest, FieldError, PaperTable, limits};
-use crate::app::{App, chain_text, check_name, compute};
+use crate::app::{UseCases, chain_text, check_name, compute};
 use crate::framework::execution::Iet;
 use crate::framework::experiment::{CellSpec, ExperimentSpec, MatrixSpec, Plan};
 use crate::reproduce::paper::PaperTables;
 use crate::reproduce::shipped;
 
-impl App {
+impl UseCases {
     /// The request with defaults filled in, and its plan.
     pub(in crate::app) async fn plan_experiment(
         &self,

@@ -12,12 +12,12 @@ use crate::app::model::{
     AppError, CreateJob, ErrorKind, EventPage, JobFilter, JobId, JobResult, JobView, Keyset, Page, PageQuery, limits,
 };
 use crate::app::ports::{IdempotencyKey, NewJob, Submitted, Transition, Wake};
-use crate::app::{App, within};
+use crate::app::{UseCases, within};
 use crate::framework::job::{Event, State};
 use kind::Resolved;
 use sha2::{Digest as _, Sha256};
 
-impl App {
+impl UseCases {
     /// Resolves and submits a job.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl App {
         let new = NewJob { view, work: resolved.work, uses: resolved.uses, experiment };
         match self.ports.store.submit(new, key).await? {
             Submitted::Created(job) => {
-                tracing::info!(job.id = %job.id, job.caller = %self.caller(), "job submitted");
+                tracing::info!(job.id = %job.id, job.caller = %self.caller, "job submitted");
                 self.ports.events.publish(Wake::Queued);
                 Ok(job)
             }
@@ -120,7 +120,7 @@ impl App {
     /// Submits the same resolved job again, with the same seed.
     ///
     /// # Errors
-    /// `NotFound`; with an idempotency key as for [`App::create_job`].
+    /// `NotFound`; with an idempotency key as for [`UseCases::create_job`].
     pub async fn clone_job(&self, id: &JobId, idempotency_key: Option<String>) -> Result<JobView, AppError> {
         let key = idempotency_key.map(|key| checked_key(key, format!("clone {id}").as_bytes())).transpose()?;
         let job = self.get_job(id).await?;

@@ -6,7 +6,7 @@
 //! same one only with the same seed, which each repetition has for itself unless `reality.seed` is given.
 
 use super::reference::missing;
-use crate::app::App;
+use crate::app::UseCases;
 use crate::app::model::{AppError, EarlierRun, ExecutionRequest, FieldError, RobotView, RunView};
 use crate::framework::execution::Problem;
 use crate::framework::method::whole_run::Trial;
@@ -49,7 +49,7 @@ pub(super) fn setup_key(robot: &RobotView, problem: &Problem, seed: u64, repetit
     Some(hex::encode(Sha256::digest(all.to_string())))
 }
 
-impl App {
+impl UseCases {
     /// The trials the job begins with; records in `request` the runs they come from.
     pub(super) async fn earlier_trials(
         &self,

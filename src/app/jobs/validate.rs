@@ -2,13 +2,13 @@
 
 use super::kind;
 use crate::app::model::{AppError, CostEstimate, CreateJob, ErrorKind, Validation, limits};
-use crate::app::{App, compute};
+use crate::app::{UseCases, compute};
 use crate::framework::execution::{Chosen, ROBOT_TRIAL_S};
 use crate::framework::range::above;
 use std::sync::Arc;
 
-impl App {
-    /// Checks a job as [`App::create_job`] would, without creating it, and estimates its cost. A trial on a robot is
+impl UseCases {
+    /// Checks a job as [`UseCases::create_job`] would, without creating it, and estimates its cost. A trial on a robot is
     /// assumed to take `robot_trial_s` seconds (15 if absent).
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 //!
 //! A follower reads the store in pages and is woken by hints; it holds at most one page, however slow its reader is.
 
-use crate::app::App;
+use crate::app::UseCases;
 use crate::app::model::{AppError, EventData, JobEvent, JobId, JobView, limits};
 use crate::app::ports::Wake;
 use futures_util::StreamExt as _;
@@ -16,7 +16,7 @@ use tokio::time::timeout;
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
 
 struct Follower {
-    app: App,
+    app: UseCases,
     id: JobId,
     after_seq: u64,
     wakes: Receiver<Wake>,
@@ -64,7 +64,7 @@ async fn woken(wakes: &mut Receiver<Wake>, id: &JobId) {
     }
 }
 
-impl App {
+impl UseCases {
     /// Streams every event after `after_seq`: stored ones first, then live ones; ends after the event of a final state.
     ///
     /// An unknown position gives one `resync` event; the stream then continues after the job's last event.

@@ -1,7 +1,7 @@
 //! Content of `--demo`. Everything goes through the service as if a user had done it, so that everything shown was
 //! really computed.
 
-use crate::app::App;
+use crate::app::UseCases;
 use crate::app::model::{
     ActionId, AppError, CreateJob, CreateRobot, CreateWorld, DemonstrationId, ErrorKind, ExecutionRequest,
     GeneralizationRequest, JobFilter, JobId, PageQuery, RobotId, UploadDemonstration, UploadFile, UploadOptions,
@@ -64,7 +64,7 @@ const SCENES: [Scene; 2] = [
 const T_MIN_S: f64 = 1.0;
 
 /// Fills an empty database; does nothing if it is not empty.
-pub(super) async fn fill(app: App) {
+pub(super) async fn fill(app: UseCases) {
     match fill_if_empty(&app).await {
         Ok(true) => tracing::info!("submitted the demo's jobs"),
         Ok(false) => tracing::info!("the database is not empty: the demo is not added"),
@@ -72,7 +72,7 @@ pub(super) async fn fill(app: App) {
     }
 }
 
-async fn fill_if_empty(app: &App) -> Result<bool, AppError> {
+async fn fill_if_empty(app: &UseCases) -> Result<bool, AppError> {
     let one = || PageQuery { page_size: Some(1), page_token: None };
     let empty = app.list_demonstrations(one()).await?.items.is_empty()
         && app.list_jobs(JobFilter::default(), one()).await?.items.is_empty()
@@ -96,12 +96,12 @@ async fn fill_if_empty(app: &App) -> Result<bool, AppError> {
     Ok(true)
 }
 
-async fn create_robot(app: &App, preset: &Preset) -> Result<RobotId, AppError> {
+async fn create_robot(app: &UseCases, preset: &Preset) -> Result<RobotId, AppError> {
     let (urdf, spec) = (preset.problem.urdf.clone(), preset.problem.robot.clone());
     Ok(app.create_robot(CreateRobot { name: "TEO, right arm".to_owned(), urdf, spec }).await?.id)
 }
 
-async fn upload(app: &App, shipped: &[Shipped]) -> Result<Vec<DemonstrationId>, AppError> {
+async fn upload(app: &UseCases, shipped: &[Shipped]) -> Result<Vec<DemonstrationId>, AppError> {
     let mut uploaded = Vec::with_capacity(shipped.len());
     for (name, bytes) in shipped {
         let upload = UploadDemonstration {
@@ -114,7 +114,7 @@ async fn upload(app: &App, shipped: &[Shipped]) -> Result<Vec<DemonstrationId>, 
     Ok(uploaded)
 }
 
-async fn generalize(app: &App, name: &str, demonstrations: Vec<DemonstrationId>) -> Result<ActionId, AppError> {
+async fn generalize(app: &UseCases, name: &str, demonstrations: Vec<DemonstrationId>) -> Result<ActionId, AppError> {
     let request = GeneralizationRequest {
         name: name.to_owned(),
         demonstrations,
@@ -128,7 +128,7 @@ async fn generalize(app: &App, name: &str, demonstrations: Vec<DemonstrationId>)
 }
 
 /// The action of a generalization, once the job has succeeded.
-async fn made(app: &App, id: &JobId) -> Result<ActionId, AppError> {
+async fn made(app: &UseCases, id: &JobId) -> Result<ActionId, AppError> {
     let mut seen = 0;
     loop {
         let job = app.wait_job(id, seen, Duration::from_secs(10)).await?;
@@ -148,7 +148,7 @@ async fn made(app: &App, id: &JobId) -> Result<ActionId, AppError> {
 }
 
 async fn execute(
-    app: &App,
+    app: &UseCases,
     scene: &Scene,
     preset: Preset,
     action: ActionId,

@@ -9,7 +9,7 @@ use crate::app::model::{
     AppError, CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, FieldError, JobProgress, Work, limits,
 };
 use crate::app::ports::Usage;
-use crate::app::{App, chain_text, check_name, compute};
+use crate::app::{UseCases, chain_text, check_name, compute};
 use crate::framework::execution::{Iet, Problem};
 use crate::framework::generalization::Goals;
 use crate::framework::range::Range;
@@ -18,7 +18,7 @@ use crate::framework::range::Range;
 ///
 /// # Errors
 /// `Invalid` with every wrong place.
-pub(super) async fn resolve(app: &App, mut request: ExecutionRequest) -> Result<Resolved, AppError> {
+pub(super) async fn resolve(app: &UseCases, mut request: ExecutionRequest) -> Result<Resolved, AppError> {
     let mut errors = bounds(&request);
     let store = &app.ports.store;
     let action = look_up(&mut errors, "/action", store.action(&request.action).await)?;

@@ -2,7 +2,7 @@
 
 use super::Resolved;
 use super::cost::{PREVIEW_TIME, TrialCost};
-use crate::app::App;
+use crate::app::UseCases;
 use crate::app::model::{
     AppError, CostEstimate, CreateJob, ExperimentId, ExperimentRequest, ExperimentView, JobProgress, JobView, Work,
 };
@@ -13,7 +13,7 @@ use crate::framework::experiment::Plan;
 ///
 /// # Errors
 /// `Invalid` with every wrong place.
-pub(super) async fn resolve(app: &App, request: ExperimentRequest) -> Result<Resolved, AppError> {
+pub(super) async fn resolve(app: &UseCases, request: ExperimentRequest) -> Result<Resolved, AppError> {
     let (request, plan) = app.plan_experiment(request).await?;
     Ok(planned(app, plan.name.clone(), CreateJob::Experiment(request), plan))
 }
@@ -23,7 +23,7 @@ pub(super) async fn resolve(app: &App, request: ExperimentRequest) -> Result<Res
 /// # Errors
 /// As the store.
 pub(super) async fn again(
-    app: &App,
+    app: &UseCases,
     name: String,
     request: CreateJob,
     experiment: &ExperimentId,
@@ -32,7 +32,7 @@ pub(super) async fn again(
     Ok(planned(app, name, request, plan))
 }
 
-fn planned(app: &App, name: String, request: CreateJob, plan: Plan) -> Resolved {
+fn planned(app: &UseCases, name: String, request: CreateJob, plan: Plan) -> Resolved {
     let id = ExperimentId::from_uuid(app.ports.ids.uuid());
     Resolved {
         name,

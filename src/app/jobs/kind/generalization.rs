@@ -6,7 +6,7 @@ use crate::app::model::{
     AppError, CostEstimate, CreateJob, FieldError, GeneralizationRequest, JobProgress, Work, limits,
 };
 use crate::app::ports::Usage;
-use crate::app::{App, check_name};
+use crate::app::{UseCases, check_name};
 use crate::framework::range::above;
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 ///
 /// # Errors
 /// `Invalid` with every wrong place.
-pub(super) async fn resolve(app: &App, request: GeneralizationRequest) -> Result<Resolved, AppError> {
+pub(super) async fn resolve(app: &UseCases, request: GeneralizationRequest) -> Result<Resolved, AppError> {
     check_name("/name", &request.name)?;
     let mut errors = Vec::new();
     if let Err(error) = above(0.0).check("t_min_s", Some("s"), request.t_min_s) {

@@ -11,7 +11,7 @@ mod execution;
 pub(super) mod experiment;
 mod generalization;
 
-use crate::app::App;
+use crate::app::UseCases;
 use crate::app::model::{AppError, CostEstimate, CreateJob, ExperimentId, JobProgress, JobView, Work};
 use crate::app::ports::{Clock, Usage};
 use crate::framework::execution::Chosen;
@@ -44,7 +44,7 @@ impl Resolved {
 ///
 /// # Errors
 /// `Invalid` with every wrong place of the request.
-pub(super) async fn resolve(app: &App, request: CreateJob) -> Result<Resolved, AppError> {
+pub(super) async fn resolve(app: &UseCases, request: CreateJob) -> Result<Resolved, AppError> {
     match request {
         CreateJob::Generalization(request) => generalization::resolve(app, request).await,
         CreateJob::Execution(request) => execution::resolve(app, *request).await,
@@ -56,7 +56,7 @@ pub(super) async fn resolve(app: &App, request: CreateJob) -> Result<Resolved, A
 ///
 /// # Errors
 /// As the store.
-pub(super) async fn again(app: &App, job: JobView, work: Work) -> Result<Resolved, AppError> {
+pub(super) async fn again(app: &UseCases, job: JobView, work: Work) -> Result<Resolved, AppError> {
     let JobView { name, request, .. } = job;
     Ok(match work {
         Work::Generalization(work) => generalization::again(name, request, work),
