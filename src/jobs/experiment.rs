@@ -7,6 +7,7 @@
 //! - Completion order and number of threads are not observable: rows are stored by cell and repetition.
 
 use super::lease::{ClaimedJob, LeaseLost, Stop, blocking};
+use crate::app::chain_text;
 use crate::app::model::ExperimentId;
 use crate::app::model::RowFilter;
 use crate::app::model::{EventData, JobProgress, JobView};
@@ -20,9 +21,9 @@ use std::time::Duration;
 use tokio::sync::mpsc::{Receiver, Sender, channel};
 use tokio::time::{Instant, timeout};
 
-/// Capacity of the queue of rows waiting for the store; full, it makes the runs wait.
+/// Capacity of the queue of rows that are not stored yet; if it is full, the runs wait.
 const ROWS_WAITING: usize = 1024;
-/// Time between looks at the job's state while no run ends.
+/// Interval at which the job's state is read while no run ends.
 const LOOK_UP: Duration = Duration::from_secs(1);
 
 /// Runs the job to its end, or until it is asked to stop.
@@ -47,7 +48,7 @@ async fn load(claimed: &ClaimedJob, id: &ExperimentId) -> Result<Experiment, Sto
         .map_err(|error| StoreError::Corrupt { what: format!("rows of {id}"), cause: error.to_string() })
 }
 
-/// Runs everything pending, in the plan's order as threads get free, as long as `going` is set.
+/// Executes the pending runs on all threads, started in the plan's order, as long as `going` is true.
 fn run_pending(experiment: &Experiment, going: &AtomicBool, sender: Sender<RunRow>) -> Result<(), RunError> {
     let plan = experiment.plan();
     let pending: Vec<RunId> = experiment.pending().collect();
@@ -66,7 +67,7 @@ fn run_pending(experiment: &Experiment, going: &AtomicBool, sender: Sender<RunRo
     }
 }
 
-/// Executes one run; an empty error means that it was asked to stop.
+/// Executes one run; fails with `None` if it was asked to stop.
 fn step(plan: &Plan, id: RunId, going: &AtomicBool, sender: &Sender<RunRow>) -> Result<(), Option<RunError>> {
     match run_while(plan, id, || going.load(Ordering::Acquire)) {
         Ok(Some(row)) => sender.blocking_send(row).map_err(|_| None),
@@ -103,20 +104,20 @@ impl<'a> RunningExperiment<'a> {
         }
     }
 
-    /// Runs what is pending until nothing is, or the job is asked to rest; answers its state.
+    /// Executes the pending runs until all are finished or the job is asked to stop; returns the job's state.
     async fn go_through(&mut self, experiment: Experiment) -> Result<State, Stop> {
         let (sender, rows) = channel(ROWS_WAITING);
         let going = Arc::clone(&self.going);
         let work = blocking(move || run_pending(&experiment, &going, sender));
         let follow = async {
             let state = self.follow(rows).await;
-            // Whatever ended the following: nobody needs the runs under way.
+            // Whatever the reason why the rows are no longer followed, runs still in flight are useless.
             self.going.store(false, Ordering::Release);
             state
         };
         let (ended, state) = tokio::join!(work, follow);
         let state = state?;
-        ended?.map_err(|error| Stop::failed("problem", whole_text(&error)))?;
+        ended?.map_err(|error| Stop::failed("problem", chain_text(&error)))?;
         Ok(state)
     }
 
@@ -173,12 +174,5 @@ impl<'a> RunningExperiment<'a> {
             total_evaluations: self.evaluations,
             ..JobProgress::default()
         }
-    }
-}
-
-fn whole_text(error: &RunError) -> String {
-    match std::error::Error::source(error) {
-        Some(cause) => format!("{error}: {cause}"),
-        None => error.to_string(),
     }
 }

@@ -11,9 +11,9 @@ use crate::app::Ports;
 use crate::app::model::JobFailure;
 use crate::app::ports::{Advance, Claim, StoreError, Transition, Wake};
 use crate::framework::job::{Event, State};
+use std::time::Duration;
 use tokio::sync::watch;
 use tokio::task::JoinHandle;
-use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 
 /// Reasons why a worker loses a job.
@@ -84,11 +84,11 @@ pub(super) struct Interrupt {
 }
 
 impl Interrupt {
-    /// Returns when the work should look up from what it does.
+    /// Returns as soon as the work should be interrupted.
     pub(super) async fn raised(&mut self) {
         let asked = async {
             let asks = |state: &State| answer(*state, false).is_some();
-            // Without a heartbeat there is no more news: the other two tokens decide.
+            // After the last heartbeat the state does not change any more: only the two tokens can interrupt.
             if self.state.wait_for(asks).await.is_err() {
                 std::future::pending::<()>().await;
             }
@@ -101,7 +101,7 @@ impl Interrupt {
     }
 }
 
-/// A job in a worker's hands; its lease is kept alive until this is dropped.
+/// A job that a worker holds; its lease is renewed until this is dropped.
 pub(super) struct ClaimedJob {
     pub(super) ports: Ports,
     pub(super) settings: Settings,
@@ -118,21 +118,28 @@ impl ClaimedJob {
     pub(super) fn new(ports: Ports, settings: Settings, claim: Claim, stop: CancellationToken) -> Self {
         let lost = CancellationToken::new();
         let state = watch::Sender::new(State::Preparing);
-        let beating = renew(ports.clone(), settings.clone(), claim.clone(), lost.clone(), state.clone());
-        Self { ports, settings, claim, stop, lost, state, heartbeat: tokio::spawn(beating) }
+        let renewals = Renewals {
+            renewed: ports.clock.elapsed(),
+            ports: ports.clone(),
+            settings: settings.clone(),
+            claim: claim.clone(),
+            lost: lost.clone(),
+            state: state.clone(),
+        };
+        Self { ports, settings, claim, stop, lost, state, heartbeat: tokio::spawn(renewals.run()) }
     }
 
-    /// Whether the server stops.
+    /// Whether the server is stopping.
     pub(super) fn is_stopping(&self) -> bool {
         self.stop.is_cancelled()
     }
 
-    /// Whether work should look up from what it does.
+    /// Whether the work should be interrupted.
     pub(super) fn is_interrupted(&self) -> bool {
         self.is_stopping() || self.lost.is_cancelled() || answer(*self.state.borrow(), false).is_some()
     }
 
-    /// Wakes work that waits.
+    /// A handle for work that waits for something else, to be woken by an interruption.
     pub(super) fn interrupt(&self) -> Interrupt {
         Interrupt { stop: self.stop.clone(), lost: self.lost.clone(), state: self.state.subscribe() }
     }
@@ -184,7 +191,7 @@ impl ClaimedJob {
         }
     }
 
-    /// Pauses the job because a person has to look: only a person resumes it.
+    /// Pauses the job until a person has dealt with `reason` and resumes it.
     pub(super) async fn rest(&self, reason: String) -> Stop {
         let because = |event| Transition { reason: Some(reason.clone()), ..Transition::plain(event) };
         let mut state = State::Running;
@@ -192,7 +199,7 @@ impl ClaimedJob {
             let event = match state {
                 State::Running => Event::Pause,
                 State::Pausing => Event::Rest,
-                // Nobody holds it, or it is being cancelled.
+                // No worker holds it any more, or it is being cancelled.
                 state => return self.settle(state).await.err().unwrap_or(Stop::Released),
             };
             match self.transition(because(event)).await {
@@ -223,21 +230,32 @@ impl Drop for ClaimedJob {
     }
 }
 
-/// Renews the lease, and notes the state it finds.
-async fn renew(ports: Ports, settings: Settings, claim: Claim, lost: CancellationToken, state: watch::Sender<State>) {
-    let mut heard = Instant::now();
-    loop {
-        tokio::time::sleep(settings.heartbeat).await;
-        match ports.store.heartbeat(&claim, settings.lease).await {
-            Ok(found) => {
-                heard = Instant::now();
-                state.send_replace(found);
-            }
-            Err(StoreError::LeaseLost { .. }) => return lost.cancel(),
-            Err(error) => {
-                tracing::warn!(job.id = %claim.job, error = %error, "a heartbeat failed");
-                if heard.elapsed() > settings.lease / 2 {
-                    return lost.cancel();
+/// Renews the lease of a claim until it is lost, and notes the state of the job.
+struct Renewals {
+    ports: Ports,
+    settings: Settings,
+    claim: Claim,
+    lost: CancellationToken,
+    state: watch::Sender<State>,
+    /// Time of the last renewal by the service's monotonic clock.
+    renewed: Duration,
+}
+
+impl Renewals {
+    async fn run(mut self) {
+        loop {
+            tokio::time::sleep(self.settings.heartbeat).await;
+            match self.ports.store.heartbeat(&self.claim, self.settings.lease).await {
+                Ok(state) => {
+                    self.renewed = self.ports.clock.elapsed();
+                    self.state.send_replace(state);
+                }
+                Err(StoreError::LeaseLost { .. }) => return self.lost.cancel(),
+                Err(error) => {
+                    tracing::warn!(job.id = %self.claim.job, error = %error, "a heartbeat failed");
+                    if self.ports.clock.elapsed().saturating_sub(self.renewed) > self.settings.lease / 2 {
+                        return self.lost.cancel();
+                    }
                 }
             }
         }

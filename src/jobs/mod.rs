@@ -1,7 +1,7 @@
 //! The queue runner: workers claim jobs, hold them by a lease, and write under their claim's token.
 //!
-//! One file or folder per job kind; each has a `run` that ends well or says by `lease::Stop` why it does not. A new
-//! kind is a file here and an arm in `run_kind`.
+//! One file or folder per job kind. Each has a function `run` that completes the job or returns the reason why it
+//! stopped, a `lease::Stop`. A new kind is a file here and an arm in `run_kind`.
 //!
 //! # Architecture Invariants
 //! - Execution is at least once, completion exactly once: a worker's writes name its claim, and a claim that no longer
@@ -17,6 +17,8 @@ mod experiment;
 mod generalization;
 mod lease;
 mod runner;
+#[cfg(test)]
+mod tests;
 
 pub use runner::{Runner, Settings};
 
@@ -24,7 +26,7 @@ use crate::app::model::{JobView, Work};
 use crate::app::ports::Evaluators;
 use lease::{ClaimedJob, Stop};
 
-/// Runs the work of a job to its end, or until it is asked to rest.
+/// Runs the work of a job to its end, or until it is asked to stop.
 async fn run_kind(
     claimed: &ClaimedJob,
     evaluators: &dyn Evaluators,

@@ -16,13 +16,18 @@ use crate::app::ports::Clock;
 use crate::framework::experiment::RunRow;
 use async_trait::async_trait;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use tokio::sync::watch;
 
 /// A store that forgets everything with the process.
 pub struct MemoryStore {
     clock: Arc<dyn Clock>,
     data: Mutex<Data>,
+    is_reachable: AtomicBool,
+    /// Number of writes refused for lack of a connection.
+    refused: watch::Sender<u64>,
 }
 
 #[derive(Clone, Default)]
@@ -73,7 +78,18 @@ impl MemoryStore {
     /// An empty store whose leases end by `clock`.
     #[must_use]
     pub fn new(clock: Arc<dyn Clock>) -> Self {
-        Self { clock, data: Mutex::default() }
+        Self { clock, data: Mutex::default(), is_reachable: AtomicBool::new(true), refused: watch::Sender::default() }
+    }
+
+    /// Lets the store accept writes, or refuse them with [`StoreError::Unavailable`].
+    pub fn set_reachable(&self, is_reachable: bool) {
+        self.is_reachable.store(is_reachable, Ordering::Release);
+    }
+
+    /// Number of writes refused so far.
+    #[must_use]
+    pub fn refused(&self) -> watch::Receiver<u64> {
+        self.refused.subscribe()
     }
 
     fn read<T>(&self, read: impl FnOnce(&Data) -> T) -> T {
@@ -81,6 +97,10 @@ impl MemoryStore {
     }
 
     fn write<T>(&self, write: impl FnOnce(&mut Data) -> Result<T, StoreError>) -> Result<T, StoreError> {
+        if !self.is_reachable.load(Ordering::Acquire) {
+            self.refused.send_modify(|count| *count += 1);
+            return Err(StoreError::Unavailable);
+        }
         let mut data = self.data.lock().unwrap_or_else(PoisonError::into_inner);
         let mut copy = data.clone();
         let answer = write(&mut copy)?;
