@@ -8,35 +8,37 @@ use std::time::{Duration, Instant};
 
 const JOBS: u64 = 20;
 const KILLS: u32 = 10;
+/// Workers of the server.
+const WORKERS: u64 = 4;
+/// Time the jobs would take altogether if nobody killed the server, s: several times that of all kills.
+const SECONDS: f64 = 20.0;
 
-async fn submit(server: &Server, named: &Value, paced: bool) -> Vec<String> {
+async fn submit(server: &Server, named: &Value, evaluations_per_s: Option<f64>) -> Vec<String> {
     let mut jobs = Vec::new();
     for number in 0..JOBS {
         let mut request = named.clone();
         request["seed"] = json!(1000 + 10 * number);
         request["repetitions"] = json!(2);
-        if paced {
-            // About two seconds per job: long enough to be killed several times.
-            request["max_evaluations_per_s"] = json!(1500.0);
-        }
+        request["max_evaluations_per_s"] = json!(evaluations_per_s);
         let job = server.post("/api/v1/jobs", &request).await;
         jobs.push(job["id"].as_str().unwrap().to_owned());
     }
     jobs
 }
 
-/// Results of an undisturbed server.
-async fn reference() -> Vec<Vec<String>> {
+/// Digests of each job on an undisturbed server, and the number of evaluations of all jobs.
+async fn reference() -> (Vec<Vec<String>>, u64) {
     let data = tempfile::tempdir().unwrap();
     let server = Server::start(data.path());
     let named = server.set_up().await;
-    let mut found = Vec::new();
-    for job in submit(&server, &named, false).await {
+    let (mut found, mut evaluations) = (Vec::new(), 0);
+    for job in submit(&server, &named, None).await {
         let ended = server.ended(&job).await;
         assert_eq!(ended["state"], "SUCCEEDED", "{ended}");
         found.push(digests(&server, &ended).await);
+        evaluations += ended["progress"]["total_evaluations"].as_u64().unwrap();
     }
-    found
+    (found, evaluations)
 }
 
 /// Evaluations of each running job by its id.
@@ -69,11 +71,12 @@ async fn checkpointed(server: &Server) {
 
 #[tokio::test]
 async fn ten_kills_lose_no_job_double_none_and_change_no_bit() {
-    let expected = reference().await;
+    let (expected, evaluations) = reference().await;
+    let rate = evaluations as f64 / (SECONDS * WORKERS as f64);
     let data = tempfile::tempdir().unwrap();
     let mut server = Server::start(data.path());
     let named = server.set_up().await;
-    let jobs = submit(&server, &named, true).await;
+    let jobs = submit(&server, &named, Some(rate)).await;
     let started = Instant::now();
     for kill in 0..KILLS {
         checkpointed(&server).await;

@@ -20,10 +20,20 @@ pub struct Server {
 impl Server {
     /// Starts the binary on `data`, on a free port.
     pub fn start(data: &Path) -> Self {
+        Self::start_with(data, &[])
+    }
+
+    /// Like [`Server::start`], but experiments execute their runs one after the other, in the plan's order.
+    pub fn start_in_order(data: &Path) -> Self {
+        Self::start_with(data, &[("RAYON_NUM_THREADS", "1")])
+    }
+
+    fn start_with(data: &Path, environment: &[(&str, &str)]) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_cgda"))
             .args(["serve", "--listen", "127.0.0.1:0", "--workers", "4", "--data-dir"])
             .arg(data)
             .env("CGDA_LOG__FILTER", "warn")
+            .envs(environment.iter().copied())
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();
@@ -101,6 +111,11 @@ impl Server {
         self.until(job, |view| view["progress"]["total_evaluations"].as_u64().unwrap() >= least).await;
     }
 
+    /// Has a worker do something else from beginning to end: whatever has not moved meanwhile rests.
+    pub async fn work_on_something_else(&self) {
+        self.set_up().await;
+    }
+
     /// Uploads a demonstration.
     pub async fn upload(&self, file_name: &str, csv: String) -> Value {
         let path = format!("/api/v1/demonstrations?file_name={file_name}");
@@ -133,6 +148,12 @@ impl Drop for Server {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+/// Evaluations per second at which a job that makes the evaluations of `ended` takes `seconds`. What meets the job in
+/// its middle then has that long for it, on any machine.
+pub fn pace(ended: &Value, seconds: f64) -> f64 {
+    ended["progress"]["total_evaluations"].as_f64().unwrap() / seconds
 }
 
 /// The digests of a job's runs, in the order of repetitions.

@@ -1,6 +1,6 @@
 //! Orderly stops and pauses: checkpoints are written, and results are the same as without them.
 
-use super::server::{Server, digests};
+use super::server::{Server, digests, pace};
 use serde_json::json;
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ async fn a_terminated_server_exits_soon_and_its_job_goes_on_with_the_same_bits()
     let alone = server.ended(alone["id"].as_str().unwrap()).await;
     let expected = digests(&server, &alone).await;
 
-    request["max_evaluations_per_s"] = json!(200.0);
+    request["max_evaluations_per_s"] = json!(pace(&alone, 5.0));
     let job = server.post("/api/v1/jobs", &request).await["id"].as_str().unwrap().to_owned();
     server.evaluated(&job, 1).await;
     let (took, well) = server.terminate();
@@ -36,13 +36,13 @@ async fn a_paused_job_rests_and_goes_on_with_the_same_bits_and_a_cancelled_one_e
     let alone = server.ended(alone["id"].as_str().unwrap()).await;
     let expected = digests(&server, &alone).await;
 
-    request["max_evaluations_per_s"] = json!(300.0);
+    request["max_evaluations_per_s"] = json!(pace(&alone, 5.0));
     let job = server.post("/api/v1/jobs", &request).await["id"].as_str().unwrap().to_owned();
     let at = format!("/api/v1/jobs/{job}");
     server.evaluated(&job, 1).await;
     server.post(&format!("{at}:pause"), &json!({})).await;
     let resting = server.until(&job, |view| view["state"] == "PAUSED").await;
-    tokio::time::sleep(Duration::from_millis(400)).await;
+    server.work_on_something_else().await;
     let later = server.get(&at).await;
     assert_eq!(later["progress"], resting["progress"]);
     assert!(later["progress"]["evaluations"].as_u64().unwrap() > 0);
@@ -51,7 +51,7 @@ async fn a_paused_job_rests_and_goes_on_with_the_same_bits_and_a_cancelled_one_e
     assert_eq!(ended["state"], "SUCCEEDED");
     assert_eq!(digests(&server, &ended).await, expected);
 
-    request["max_evaluations_per_s"] = json!(10.0);
+    request["max_evaluations_per_s"] = json!(pace(&alone, 60.0));
     let job = server.post("/api/v1/jobs", &request).await["id"].as_str().unwrap().to_owned();
     server.evaluated(&job, 1).await;
     server.post(&format!("/api/v1/jobs/{job}:cancel"), &json!({})).await;

@@ -1,6 +1,6 @@
 //! Whole-run methods killed midway: the same bits as on an undisturbed server.
 
-use super::server::{Server, digests, events};
+use super::server::{Server, digests, events, pace};
 use serde_json::{Value, json};
 
 /// Creates an action of seven steps of the painted percentage, and a wall; returns the fields an execution needs.
@@ -35,11 +35,11 @@ async fn a_kill_in_the_middle_changes_no_bit_of_a_method_that_owns_the_run() {
     let wall = paint(&server, &wax).await;
     let noisy = json!({"link_share": 0.05, "sensor_noise": 2.0, "joint_noise_deg": 0.1, "lost_share": 0.1});
     let runs = [
-        (&wax, json!({"method": {"name": "model", "noise": 2.0}, "tolerance": 20.0, "reality": noisy}), 8.0),
-        (&wall, json!({"method": "particle"}), 6.0),
-        (&wall, json!({"method": "search"}), 20.0),
+        (&wax, json!({"method": {"name": "model", "noise": 2.0}, "tolerance": 20.0, "reality": noisy})),
+        (&wall, json!({"method": "particle"})),
+        (&wall, json!({"method": "search"})),
     ];
-    for (named, execution, rate) in &runs {
+    for (named, execution) in &runs {
         let reference = submit(&server, named, execution, None).await;
         let ended = server.ended(&reference).await;
         assert_eq!(ended["state"], "SUCCEEDED", "{ended}");
@@ -47,7 +47,7 @@ async fn a_kill_in_the_middle_changes_no_bit_of_a_method_that_owns_the_run() {
         let evaluations = ended["progress"]["evaluations"].as_u64().unwrap();
         assert!(evaluations >= 6, "{evaluations} evaluations have no middle");
 
-        let killed = submit(&server, named, execution, Some(*rate)).await;
+        let killed = submit(&server, named, execution, Some(pace(&ended, 5.0))).await;
         server.evaluated(&killed, 3).await;
         server.kill();
         server = Server::start(data.path());
