@@ -25,7 +25,7 @@ const PHRASES: [&str; 9] = [
 ];
 
 /// Folders whose comments still await this wording. Entries leave this list; none joins it.
-const AWAITING: [&str; 3] = ["src/evaluate/", "src/http/", "src/jobs/"];
+const AWAITING: [&str; 1] = ["src/http/"];
 
 /// Words that may follow "is no".
 const AFTER_IS_NO: [&str; 5] = ["longer", "more", "less", "better", "worse"];

@@ -1,8 +1,8 @@
-//! Evaluators: what carries out the trials of an execution, and decorators around them.
+//! Evaluators, which carry out the trials of an execution, and decorators around them.
 //!
 //! # Architecture Invariants
-//! - Each one implements the port [`crate::app::ports::Evaluator`] and keeps its invariants; the wiring decides which
-//!   one is plugged in and what decorates it.
+//! - Each one implements the port [`crate::app::ports::Evaluator`] and keeps its invariants; the wiring chooses one and
+//!   its decorators.
 
 mod paced;
 mod simulation;

@@ -1,7 +1,7 @@
-//! A decorator that keeps evaluations to a rate, for jobs that are to be watched.
+//! A decorator that limits the rate of evaluations, for jobs that people want to watch.
 //!
-//! It waits before it executes, never between executing and answering: whoever drops the wait loses no trial. The rate
-//! changes no bit of a result.
+//! It waits before it executes a batch, never between executing and answering: dropping the future while it waits loses
+//! no trial. The rate changes no bit of a result.
 
 use crate::app::ports::{Evaluator, EvaluatorError, Evaluators, RunContext, Trials};
 use crate::framework::execution::Observations;
@@ -10,19 +10,20 @@ use async_trait::async_trait;
 use std::time::Duration;
 use tokio::time::Instant;
 
-/// One batch covers about this much time.
+/// Approximate time per batch, s.
 const BATCH_S: f64 = 0.1;
 
-/// An evaluator kept to a rate.
+/// An evaluator with a limited rate.
 pub struct Paced {
     inner: Box<dyn Evaluator>,
+    /// Limit, evaluations per second.
     per_s: f64,
     /// Earliest start of the next batch.
     due: Instant,
 }
 
 impl Paced {
-    /// `inner` with at most about `per_s` evaluations per second.
+    /// Limits `inner` to about `per_s` evaluations per second.
     #[must_use]
     pub fn new(inner: Box<dyn Evaluator>, per_s: f64) -> Self {
         Self { inner, per_s, due: Instant::now() }
@@ -49,7 +50,7 @@ impl Evaluator for Paced {
     }
 }
 
-/// Keeps every evaluator of `inner` to the rate its job asks for.
+/// Limits every evaluator of `inner` to the rate that its job requests; without one, it is not limited.
 pub struct PacedEvaluators<E>(pub E);
 
 #[async_trait]
@@ -68,7 +69,7 @@ mod tests {
     use super::*;
     use crate::framework::method::per_goal::Batch;
 
-    /// Answers everything at once.
+    /// Answers immediately.
     struct Instantly;
 
     #[async_trait]

@@ -6,19 +6,19 @@ use crate::framework::method::per_goal::Provenance;
 use crate::framework::world::World;
 use async_trait::async_trait;
 
-/// Candidates per call: enough that the call costs nothing beside them.
+/// Maximum number of candidates per call; the cost of a call is negligible beside theirs.
 const BATCH: usize = 64;
 
 /// The simulated world of one run.
 pub struct Simulation {
     world: Box<dyn World>,
-    /// Poses of the prefix the world has seen.
+    /// Number of poses of the prefix that the world has executed.
     committed: usize,
     scratch: Vec<f64>,
 }
 
 impl Simulation {
-    /// The world of `run`, before any pose.
+    /// Builds the world of `run`; no pose has been executed in it.
     ///
     /// # Errors
     /// [`EvaluatorError::Problem`] if the world cannot be built.

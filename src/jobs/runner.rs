@@ -75,7 +75,7 @@ impl Runner {
         Ok(Self { tasks, stop })
     }
 
-    /// Lets every worker write its checkpoint and give back its job; returns whether all did within `limit`.
+    /// Asks every worker to write its checkpoint and return its job; returns whether all did so within `limit`.
     pub async fn shut_down(mut self, limit: Duration) -> bool {
         self.stop.cancel();
         let all = async { while self.tasks.join_next().await.is_some() {} };
@@ -157,7 +157,7 @@ async fn rest(time: Duration, stop: &CancellationToken) {
     }
 }
 
-/// Returns when a job may be waiting, at the latest after a second.
+/// Returns when a job may be waiting, at the latest after [`LOOK_AGAIN`].
 async fn queued(wakes: &mut Receiver<Wake>, stop: &CancellationToken) {
     let hint = async {
         loop {

@@ -3,7 +3,7 @@
 use crate::framework::execution::IetState;
 use serde::{Deserialize, Serialize};
 
-/// Incremented when the meaning of a checkpoint changes.
+/// Format version, incremented whenever the meaning of a checkpoint changes.
 const VERSION: u32 = 1;
 
 /// A saved execution job.
@@ -11,7 +11,7 @@ const VERSION: u32 = 1;
 #[serde(deny_unknown_fields)]
 pub(super) struct Checkpoint {
     version: u32,
-    /// Build that wrote it: another one may compute other bits.
+    /// Build that wrote it; another build may compute different bits.
     build: String,
     /// Current repetition; earlier ones are stored as runs.
     pub(super) repetition: u32,
@@ -40,13 +40,13 @@ impl Checkpoint {
     /// The stored bytes.
     ///
     /// # Errors
-    /// Never for a state the machine made; JSON has no number for NaN.
+    /// [`serde_json::Error`] for a NaN or an infinite number; no state of a search has one.
     pub(super) fn encode(&self) -> Result<Vec<u8>, serde_json::Error> {
         serde_json::to_vec(self)
     }
 
-    /// The checkpoint in `bytes` if this build wrote it for that repetition. Otherwise the repetition starts again from
-    /// its seed: slower, and with the bits of an uninterrupted run of this build.
+    /// Reads a checkpoint; `None` unless this build wrote it for that repetition. The repetition then starts again from
+    /// its seed, which takes longer but gives the bits of an uninterrupted run of this build.
     pub(super) fn decode(bytes: &[u8], repetition: u32) -> Option<Self> {
         let found: Self = serde_json::from_slice(bytes).ok()?;
         (found.version == VERSION && found.build == build() && found.repetition == repetition).then_some(found)

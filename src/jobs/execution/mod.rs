@@ -3,9 +3,9 @@
 //! # Invariants
 //! - Everything written together is consistent: finished runs, progress, checkpoint and their events are one
 //!   transaction. A job that resumes from it computes the bits it would have computed without the stop.
-//! - Pause and cancel are noticed after each write, and therefore at the latest after one checkpoint interval. An
-//!   evaluator that takes longer is interrupted.
-//! - The wiring chooses the evaluator that executes the trials; nothing here knows a simulation.
+//! - Pause and cancel are noticed after each write, at the latest after one checkpoint interval. An evaluation that
+//!   takes longer is interrupted.
+//! - The evaluator that executes the trials is chosen by the wiring; nothing here depends on a simulation.
 
 mod checkpoint;
 mod record;
@@ -30,7 +30,7 @@ use tokio::time::Instant;
 
 /// Finished goals are published immediately, at most this many times per checkpoint interval.
 const GOALS_PER_CHECKPOINT: u32 = 5;
-/// Length of a slice: short enough that the job is not deaf to pause and cancel.
+/// Duration of a slice; between slices the job obeys pause and cancel.
 const SLICE: Duration = Duration::from_millis(25);
 
 impl From<ProblemError> for Stop {
@@ -135,7 +135,7 @@ impl<'a> RunningExecution<'a> {
         Ok(Search::new(iet, evaluator, self.saved.repetition))
     }
 
-    /// Slice after slice until every goal has ended.
+    /// Runs slice after slice until every goal has ended.
     async fn repetition(&mut self, mut search: Search) -> Result<Search, Stop> {
         let mut published = search.iet.progress().results.len();
         loop {
@@ -203,7 +203,7 @@ impl<'a> RunningExecution<'a> {
         self.claimed.settle(state).await
     }
 
-    /// Writes everything there is to write.
+    /// Writes everything that is pending; returns the job's state.
     async fn keep(&mut self, shown: JobProgress, checkpoint: &Checkpoint) -> Result<State, Stop> {
         let brief = JobProgress { finished_goals: Vec::new(), trials: Vec::new(), ..shown.clone() };
         self.events.push(EventData::Progress { progress: brief });
@@ -253,7 +253,7 @@ fn not_finite(message: String) -> Stop {
     Stop::failed("not_finite", message)
 }
 
-/// The reason a job rests for.
+/// Reason shown for a job that pauses because of an unknown trial, with the remedy.
 fn unknown(trial: TrialId) -> String {
     let TrialId { repetition, goal, candidate } = trial;
     format!(

@@ -19,7 +19,7 @@ pub(super) struct Marks {
     pub created_at: Timestamp,
 }
 
-/// The records of the finished run `iet`.
+/// Converts the finished run `iet` into the records to store.
 ///
 /// # Errors
 /// [`ProblemError::Unfinished`] before the last goal has ended.

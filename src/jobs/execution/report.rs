@@ -21,7 +21,7 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// A job of `repetitions` runs of `problem`, at its beginning.
+    /// The report of a job of `repetitions` runs of `problem`, at its beginning.
     pub(super) fn new(problem: Arc<Problem>, repetitions: u32) -> Self {
         Self { problem, repetitions, repetition: 0, evaluations_before: 0, trials: Vec::new() }
     }
@@ -34,7 +34,7 @@ impl Report {
         self.news(log);
     }
 
-    /// The trials of `log` that were not reported yet.
+    /// The trials of `log` that have not been reported yet; they now count as reported.
     pub(super) fn news(&mut self, log: &[Trial]) -> Vec<TrialProgress> {
         let goals = &self.problem.goals;
         let repetition = self.repetition;
@@ -49,7 +49,7 @@ impl Report {
         news
     }
 
-    /// An ended goal.
+    /// The result of a goal that has ended.
     pub(super) fn goal(&self, goal: &GoalResult) -> GoalProgress {
         GoalProgress {
             repetition: self.repetition,
@@ -84,7 +84,7 @@ impl Report {
         }
     }
 
-    /// A job between two repetitions.
+    /// Progress of a job between two repetitions.
     pub(super) fn between(&self) -> JobProgress {
         let goals = narrow(self.problem.goals.len());
         JobProgress {
@@ -97,7 +97,7 @@ impl Report {
         }
     }
 
-    /// A job that has ended; `last` is its last run if this attempt made it.
+    /// Progress of a job that has ended; `last` is its last run if this attempt made it.
     pub(super) fn at_end(&self, last: Option<&NewRun>, total_evaluations: u64) -> JobProgress {
         let goals = narrow(self.problem.goals.len());
         let results = last.map(|run| run.goals.goals.as_slice()).unwrap_or_default();

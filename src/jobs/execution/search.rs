@@ -39,15 +39,15 @@ pub(super) struct Search {
     evaluator: Box<dyn Evaluator>,
     repetition: u32,
     prefix: Vec<Vec<f64>>,
-    /// Candidates asked for whose outcome has not been told.
+    /// Proposed candidates whose outcomes the search has not been told.
     asked: Batch,
-    /// Those of them the evaluator gets.
+    /// Those of them that may be executed.
     checked: Batch,
     seen: Observations,
 }
 
 impl Search {
-    /// `iet` at work in `evaluator`.
+    /// A search whose trials `evaluator` carries out.
     pub(super) fn new(iet: Iet, evaluator: Box<dyn Evaluator>, repetition: u32) -> Self {
         let (genes, features) = (iet.chain().len(), iet.world_features());
         let most = evaluator.most_at_once().max(1);
@@ -62,7 +62,7 @@ impl Search {
         }
     }
 
-    /// Evaluates until `due` or until `interrupted` returns, at least one batch unless interrupted.
+    /// Evaluates batches until `due` or until `interrupted` returns; at least one batch unless it is interrupted.
     pub(super) async fn slice(
         &mut self,
         due: Instant,
@@ -99,7 +99,7 @@ impl Search {
         Ok(if self.iet.is_finished() { SliceEnd::Finished } else { SliceEnd::Due })
     }
 
-    /// The next candidates, and the prefix before them.
+    /// Asks the search for the next candidates and the prefix before them, unless some are left of an interrupted slice.
     fn ask(&mut self) {
         self.seen.clear();
         if !self.asked.is_empty() {
@@ -111,7 +111,7 @@ impl Search {
         self.iet.ask(&mut self.asked);
     }
 
-    /// Sorts out what may not be executed.
+    /// Selects the candidates that may be executed; real ones outside the joint limits count as failed.
     fn check(&mut self) {
         self.checked.clear(self.asked.len());
         let is_real = self.evaluator.provenance() == Provenance::Real;
@@ -124,7 +124,8 @@ impl Search {
         }
     }
 
-    /// The first trial whose fate is unknown, if there is one. What the evaluator left out is unknown too.
+    /// The first trial whose outcome is unknown; a trial that the evaluator left out counts as unknown. `None` if every
+    /// outcome is known.
     fn unknown(&self) -> Option<TrialId> {
         let known = || self.seen.iter().filter(|(_, _, seen)| *seen != Seen::Unknown).map(|(id, ..)| id);
         if known().count() == self.asked.len() {

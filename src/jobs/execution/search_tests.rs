@@ -1,4 +1,4 @@
-//! The loop over the port, with evaluators that answer, hesitate, forget and break.
+//! The search loop with evaluators that answer, take long, lose outcomes and fail.
 
 use super::search::{Search, SliceEnd, SliceError};
 use crate::app::ports::{Evaluator, EvaluatorError, TrialId, Trials};
@@ -26,13 +26,13 @@ struct Journal {
 }
 
 impl Journal {
-    /// Whether a trial was begun and nothing was heard of it.
+    /// Whether a trial was started whose outcome was never stored.
     fn is_hanging(&self) -> bool {
         self.seen.len() < self.begun.len()
     }
 }
 
-/// A robot of a simulated kind that keeps a journal. It dies in the middle of every `dies_every`th call.
+/// A simulated robot that keeps a journal. It hangs in the middle of every `dies_every`th call.
 struct Robot {
     world: Box<dyn World>,
     limits: Vec<(f64, f64)>,
@@ -109,9 +109,9 @@ fn problem(method: &str) -> Problem {
     preset.problem
 }
 
-/// Drives `problem` as a job does. A process that hangs is killed after a moment and resumed from the last checkpoint;
-/// when nobody knows, a person looks and says that the trial may be repeated. Returns the digest and how often a person
-/// had to look.
+/// Executes `problem` as a job does. A hanging process is killed after a moment and resumed from the last checkpoint; if
+/// an outcome is unknown, a person looks and lets the trial be repeated. Returns the digest and how often a person had to
+/// look.
 async fn driven(problem: &Problem, journal: &Arc<Mutex<Journal>>, dies_every: u64) -> (String, u32) {
     let mut iet = Iet::new(problem, SEED).unwrap();
     let mut looked = 0;
@@ -150,7 +150,7 @@ async fn a_robot_that_dies_in_the_middle_of_trials_repeats_none_by_itself_and_en
     assert_eq!(journal.outside_limits, 0);
 }
 
-/// Answers as a function of the call says.
+/// An evaluator whose answers come from a function.
 struct Scripted<F>(F, Provenance);
 
 #[async_trait]
