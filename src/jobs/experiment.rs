@@ -11,7 +11,7 @@ use crate::app::chain_text;
 use crate::app::model::ExperimentId;
 use crate::app::model::RowFilter;
 use crate::app::model::{EventData, JobProgress, JobView};
-use crate::app::ports::{Advance, StoreError};
+use crate::app::ports::{Advance, Product, StoreError};
 use crate::framework::experiment::{Experiment, Plan, RunError, RunId, RunRow, run_while};
 use crate::framework::job::State;
 use rayon::iter::{ParallelBridge as _, ParallelIterator as _};
@@ -157,10 +157,11 @@ impl<'a> RunningExperiment<'a> {
         self.finished += rows.len() as u64;
         self.evaluations += rows.iter().map(|row| row.evaluations).sum::<u64>();
         let progress = self.progress();
-        let events =
-            if rows.is_empty() { Vec::new() } else { vec![EventData::Progress { progress: progress.clone() }] };
-        let state =
-            self.claimed.advance(Advance { rows, events, progress: Some(progress), ..Advance::default() }).await?;
+        let shown = EventData::Progress { progress: progress.clone() };
+        let (products, events) =
+            if rows.is_empty() { (Vec::new(), Vec::new()) } else { (vec![Product::Rows(rows)], vec![shown]) };
+        let step = Advance { products, events, progress: Some(progress), ..Advance::default() };
+        let state = self.claimed.advance(step).await?;
         self.written = Instant::now();
         Ok(state)
     }

@@ -5,7 +5,7 @@ use crate::app::demonstrations::decode;
 use crate::app::model::ActionId;
 use crate::app::model::{ActionGoals, ActionView};
 use crate::app::model::{GeneralizationRequest, JobProgress, JobView};
-use crate::app::ports::{Advance, StoreError};
+use crate::app::ports::{Advance, Product, StoreError};
 use crate::framework::demonstration::Demonstration;
 use crate::framework::generalization::{GeneralizeSpec, Generalized, generalize};
 
@@ -34,7 +34,8 @@ pub(super) async fn run(claimed: &ClaimedJob, job: &JobView, request: Generaliza
         goal_index: action.goals,
         ..job.progress.clone()
     };
-    let step = Advance { action: Some((action, goals)), progress: Some(progress), ..Advance::default() };
+    let products = vec![Product::Action(Box::new((action, goals)))];
+    let step = Advance { products, progress: Some(progress), ..Advance::default() };
     Ok(claimed.succeed(step).await?)
 }
 

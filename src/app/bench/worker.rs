@@ -6,7 +6,7 @@ use crate::app::model::{
     RunGoals, RunId, RunView, TrajectoryId, TrajectoryView, Work,
 };
 use crate::app::ports::{
-    Advance, Claimed, Experiments as _, Ids as _, KeptTrials, NewRun, Queue as _, TestClock, Transition,
+    Advance, Claimed, Experiments as _, Ids as _, KeptTrials, NewRun, Product, Queue as _, TestClock, Transition,
 };
 use crate::app::trajectories::{digest, plan_through};
 use crate::framework::experiment::{RunId as Place, RunRow};
@@ -65,7 +65,7 @@ impl Bench {
             spread: vec![vec![0.0; goals.features().len()]; rows.len()],
             goals: rows,
         };
-        self.succeed(&claimed, Advance { action: Some((view, matrix)), ..Advance::default() }).await;
+        self.succeed(&claimed, made(Product::Action(Box::new((view, matrix))))).await;
         self.app.get_action(&id).await.unwrap()
     }
 
@@ -160,7 +160,7 @@ impl Bench {
         let goals = RunGoals { run: id, features, joint_names: planned.joints().to_vec(), goals };
         let convergence = (1..=100).map(improvement).collect();
         let run = NewRun { view: view.clone(), goals, convergence, trajectory, trials: KeptTrials::default() };
-        self.succeed(&claimed, Advance { runs: vec![run], ..Advance::default() }).await;
+        self.succeed(&claimed, made(Product::Run(Box::new(run)))).await;
         view
     }
 
@@ -187,7 +187,12 @@ impl Bench {
                 digest: "d".to_owned(),
             }
         });
-        self.step(&claimed, Advance { rows: rows.collect(), ..Advance::default() }).await;
+        self.step(&claimed, made(Product::Rows(rows.collect()))).await;
         experiment
     }
+}
+
+/// A step that made one product.
+fn made(product: Product) -> Advance {
+    Advance { products: vec![product], ..Advance::default() }
 }

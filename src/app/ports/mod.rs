@@ -19,6 +19,6 @@ pub use ids::TestIds;
 pub use store::MemoryStore;
 pub use store::{
     Actions, Advance, Claim, Claimed, Demonstrations, Experiments, IdempotencyKey, Jobs, KeptTrials, NewDemonstration,
-    NewExperiment, NewJob, NewRobot, NewRun, Queue, Robots, Runs, Store, StoreError, Submitted, Transition, Usage,
-    Worlds,
+    NewExperiment, NewJob, NewRobot, NewRun, Product, Queue, Robots, Runs, Store, StoreError, Submitted, Transition,
+    Usage, Worlds,
 };

@@ -133,10 +133,10 @@ pub fn quarantine(crashes: u32, max_crashes: u32) -> Option<Transition> {
     Some(Transition { event: Event::Fail, reason: Some(message), failure: Some(failure) })
 }
 
-/// Whether a step is progress, which sets the count of crashes back to 0: a checkpoint, or rows of an experiment.
+/// Whether a step is progress, which resets the count of crashes: a checkpoint, or something that the job made.
 #[must_use]
 pub fn is_progress(step: &Advance) -> bool {
-    step.checkpoint.is_some() || !step.rows.is_empty()
+    step.checkpoint.is_some() || !step.products.is_empty()
 }
 
 /// The number of the event after number `last_seq`; 0 is before the first event.

@@ -16,7 +16,7 @@ mod search_tests;
 
 use super::lease::{ClaimedJob, Stop, blocking};
 use crate::app::model::{EventData, ExecutionWork, JobProgress, JobView};
-use crate::app::ports::{Advance, EvaluatorError, Evaluators, NewRun, RunContext, TrialId};
+use crate::app::ports::{Advance, EvaluatorError, Evaluators, NewRun, Product, RunContext, TrialId};
 use crate::framework::execution::{Iet, Problem, ProblemError};
 use crate::framework::job::State;
 use checkpoint::Checkpoint;
@@ -215,7 +215,8 @@ impl<'a> RunningExecution<'a> {
     }
 
     fn take_step(&mut self) -> Advance {
-        Advance { runs: std::mem::take(&mut self.runs), events: std::mem::take(&mut self.events), ..Advance::default() }
+        let products = self.runs.drain(..).map(|run| Product::Run(Box::new(run))).collect();
+        Advance { products, events: std::mem::take(&mut self.events), ..Advance::default() }
     }
 
     /// Turns the finished repetition into a run and moves on to the next one.

@@ -3,7 +3,7 @@
 use super::{Held, ask, claim, until};
 use crate::app::bench::Bench;
 use crate::app::model::{ExperimentId, ExperimentView, JobId, JobView, RowFilter, Work};
-use crate::app::ports::{Advance, Experiments as _, Jobs as _, NewExperiment, NewJob, Usage};
+use crate::app::ports::{Advance, Experiments as _, Jobs as _, NewExperiment, NewJob, Product, Usage};
 use crate::framework::experiment::{self, Plan, RunId, RunRow};
 use crate::framework::job::{Event, State};
 use crate::jobs::experiment::run;
@@ -48,6 +48,10 @@ fn computed(plan: &Plan, cell: u32, repetition: u32) -> RunRow {
     experiment::run(plan, RunId { cell, repetition }).unwrap()
 }
 
+fn stored(row: RunRow) -> Advance {
+    Advance { products: vec![Product::Rows(vec![row])], ..Advance::default() }
+}
+
 fn failure(ended: Result<(), Stop>) -> (&'static str, String) {
     match ended {
         Err(Stop::Failed { code, message }) => (code, message),
@@ -61,7 +65,7 @@ async fn every_run_without_a_row_is_executed_and_one_with_a_row_is_not() {
     let (Held { claimed, job, .. }, id) = claimed(&bench, &[short("a", 20), short("b", 30)]).await;
     let plan = bench.store.experiment_plan(&id).await.unwrap();
     let kept = RunRow { digest: "of an earlier attempt".to_owned(), ..computed(&plan, 1, 0) };
-    claimed.advance(Advance { rows: vec![kept.clone()], ..Advance::default() }).await.unwrap();
+    claimed.advance(stored(kept.clone())).await.unwrap();
 
     run(&claimed, &job, id.clone()).await.unwrap();
     let expected = [computed(&plan, 0, 0), computed(&plan, 0, 1), kept, computed(&plan, 1, 1)];
@@ -108,7 +112,7 @@ async fn a_row_that_contradicts_the_plan_fails_the_job() {
     let (Held { claimed, job, .. }, id) = claimed(&bench, &[short("a", 20)]).await;
     let plan = bench.store.experiment_plan(&id).await.unwrap();
     let wrong = RunRow { seed: 99, ..computed(&plan, 0, 0) };
-    claimed.advance(Advance { rows: vec![wrong], ..Advance::default() }).await.unwrap();
+    claimed.advance(stored(wrong)).await.unwrap();
     let (code, message) = failure(run(&claimed, &job, id.clone()).await);
     assert_eq!(code, "corrupt_input");
     assert!(message.contains(id.as_str()) && message.contains("ran seed 99, the plan says 7"), "{message}");

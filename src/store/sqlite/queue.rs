@@ -9,7 +9,7 @@ use super::statements::statements;
 use super::{SqliteStore, actions, experiments, job_row, runs};
 use crate::app::model::{JobId, Timestamp};
 use crate::app::ports::rules::{Loss, is_progress, quarantine, take_back};
-use crate::app::ports::{Advance, Claim, Claimed, Queue, StoreError, Transition};
+use crate::app::ports::{Advance, Claim, Claimed, Product, Queue, StoreError, Transition};
 use crate::framework::job::{Event, State};
 use crate::store::documents::{self, Progress, Work};
 use async_trait::async_trait;
@@ -202,15 +202,13 @@ async fn write_step(
     if is_progress(&step) {
         sqlx::query(FORGET_CRASHES).bind(id.as_str()).execute(&mut *connection).await?;
     }
-    let Advance { runs: new_runs, rows, action, progress, checkpoint: data, events, transition } = step;
-    for run in new_runs {
-        runs::insert(connection, run).await?;
-    }
-    if !rows.is_empty() {
-        experiments::insert_rows(connection, id, rows).await?;
-    }
-    if let Some((view, goals)) = action {
-        actions::insert(connection, view, goals).await?;
+    let Advance { products, progress, checkpoint: data, events, transition } = step;
+    for product in products {
+        match product {
+            Product::Action(made) => actions::insert(connection, made.0, made.1).await?,
+            Product::Run(run) => runs::insert(connection, *run).await?,
+            Product::Rows(rows) => experiments::insert_rows(connection, id, rows).await?,
+        }
     }
     if let Some(progress) = progress {
         let document = documents::write::<Progress>(progress)?;

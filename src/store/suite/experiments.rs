@@ -2,7 +2,7 @@
 
 use super::fixtures::{AT, claimed, experiment, page, row, submitted, transition, uuid};
 use crate::app::model::{ExperimentId, RowFilter};
-use crate::app::ports::{Advance, Store, StoreError};
+use crate::app::ports::{Advance, Product, Store, StoreError};
 use crate::framework::experiment::RunId as Which;
 use crate::framework::experiment::RunRow;
 use crate::framework::job::Event;
@@ -20,7 +20,7 @@ pub(crate) async fn keeps_an_experiment_with_its_job_and_its_rows_with_the_claim
 
     let claim = claimed(store).await.unwrap().claim;
     store.advance(&claim, transition(Event::Start), AT).await.unwrap();
-    let rows = |rows: &[RunRow]| Advance { rows: rows.to_vec(), ..Advance::default() };
+    let rows = |rows: &[RunRow]| Advance { products: vec![Product::Rows(rows.to_vec())], ..Advance::default() };
     store.advance(&claim, rows(&[row(1, 0), row(0, 1)]), AT).await.unwrap();
     store.advance(&claim, rows(&[row(0, 0)]), AT).await.unwrap();
     // A run that is there already takes the whole step back, its new rows and its count.

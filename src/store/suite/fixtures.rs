@@ -6,7 +6,7 @@ use crate::app::model::{
     RobotView, RunGoals, RunId, RunView, Timestamp, Work, WorldId,
 };
 use crate::app::ports::{
-    Advance, Claimed, KeptTrials, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Store, Submitted,
+    Advance, Claimed, KeptTrials, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Product, Store, Submitted,
     Transition, Usage,
 };
 use crate::framework::experiment::Plan;
@@ -149,6 +149,10 @@ pub(super) async fn claimed(store: &dyn Store) -> Option<Claimed> {
 
 pub(super) async fn claimed_for(store: &dyn Store, lease: Duration) -> Option<Claimed> {
     store.claim(Uuid::new_v4().simple().to_string(), lease, 3, AT).await.unwrap()
+}
+
+pub(super) fn made(run: NewRun) -> Product {
+    Product::Run(Box::new(run))
 }
 
 pub(super) fn transition(event: Event) -> Advance {

@@ -1,6 +1,6 @@
 //! Jobs as workers hold them.
 
-use super::fixtures::{AT, LEASE, checkpoint, claimed, claimed_for, job, run, states, submitted, transition};
+use super::fixtures::{AT, LEASE, checkpoint, claimed, claimed_for, job, made, run, states, submitted, transition};
 use crate::app::ports::{Advance, Store, StoreError};
 use crate::framework::job::Event;
 use crate::framework::job::State;
@@ -24,7 +24,8 @@ pub(crate) async fn writes_nothing_for_a_lost_claim(store: &dyn Store) {
     assert_eq!(store.begin_epoch(AT).await.unwrap(), std::slice::from_ref(&id));
     let before = store.job(&id).await.unwrap();
     assert_eq!(before.state, State::Queued);
-    let step = Advance { runs: vec![run(1, &id, 0)], checkpoint: Some(vec![9]), ..transition(Event::Succeed) };
+    let step =
+        Advance { products: vec![made(run(1, &id, 0))], checkpoint: Some(vec![9]), ..transition(Event::Succeed) };
     assert!(matches!(store.advance(&stale, step.clone(), AT).await, Err(StoreError::LeaseLost { .. })));
     assert!(matches!(store.heartbeat(&stale, LEASE).await, Err(StoreError::LeaseLost { .. })));
     assert_eq!(store.job(&id).await.unwrap(), before);

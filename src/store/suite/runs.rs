@@ -1,6 +1,6 @@
 //! Steps of a worker, and the runs they write.
 
-use super::fixtures::{AT, claimed, page, run, states, submitted, transition};
+use super::fixtures::{AT, claimed, made, page, run, states, submitted, transition};
 use crate::app::model::{EventData, RunFilter};
 use crate::app::ports::{Advance, KeptTrials, Store, StoreError, Transition};
 use crate::framework::job::Event;
@@ -13,14 +13,14 @@ pub(crate) async fn writes_a_step_whole_or_not_at_all(store: &dyn Store) {
     store.advance(&claim, transition(Event::Start), AT).await.unwrap();
     let before = store.job(&id).await.unwrap();
     // A running job cannot rest without having been asked to.
-    let step = Advance { runs: vec![run(1, &id, 0)], checkpoint: Some(vec![9]), ..transition(Event::Rest) };
+    let step = Advance { products: vec![made(run(1, &id, 0))], checkpoint: Some(vec![9]), ..transition(Event::Rest) };
     assert!(matches!(store.advance(&claim, step, AT).await, Err(StoreError::Transition(_))));
     assert_eq!(store.job(&id).await.unwrap(), before);
     assert!(store.runs(&RunFilter::default(), &page(9, "")).await.unwrap().is_empty());
     // A repetition that is there already takes the whole step back.
-    let step = || Advance { runs: vec![run(1, &id, 0)], ..Advance::default() };
+    let step = || Advance { products: vec![made(run(1, &id, 0))], ..Advance::default() };
     store.advance(&claim, step(), AT).await.unwrap();
-    let twice = Advance { runs: vec![run(2, &id, 0)], events: vec![EventData::Resync], ..Advance::default() };
+    let twice = Advance { products: vec![made(run(2, &id, 0))], events: vec![EventData::Resync], ..Advance::default() };
     assert!(store.advance(&claim, twice, AT).await.is_err());
     assert_eq!(store.job(&id).await.unwrap().last_seq, before.last_seq);
 }
@@ -32,7 +32,7 @@ pub(crate) async fn ends_a_job_once_with_its_results(store: &dyn Store) {
     let mut runs = vec![run(5, &id, 0), run(4, &id, 1)];
     let trial = Trial { joints: vec![0.1 + 0.2], observation: None, cells: None, goal: 2 };
     runs[0].trials = KeptTrials { setting: Some("arm".to_owned()), trials: vec![trial] };
-    let step = Advance { runs: runs.clone(), ..transition(Event::Succeed) };
+    let step = Advance { products: runs.iter().cloned().map(made).collect(), ..transition(Event::Succeed) };
     assert_eq!(store.advance(&claim, step.clone(), AT).await.unwrap(), State::Succeeded);
     assert!(matches!(store.advance(&claim, step, AT).await, Err(StoreError::LeaseLost { .. })));
     let asked = store.apply_event(&id, Transition::plain(Event::Cancel), AT).await;

@@ -26,7 +26,7 @@ pub use experiments::{Experiments, NewExperiment};
 pub use jobs::{IdempotencyKey, Jobs, NewJob, Submitted, Usage};
 #[cfg(test)]
 pub use memory::MemoryStore;
-pub use queue::{Advance, Claim, Claimed, Queue, Transition};
+pub use queue::{Advance, Claim, Claimed, Product, Queue, Transition};
 pub use robots::{NewRobot, Robots};
 pub use runs::{KeptTrials, NewRun, Runs};
 pub use worlds::Worlds;

@@ -48,18 +48,25 @@ impl Transition {
     }
 }
 
-/// One transaction of a worker, written in this order.
+/// A resource that a job made. A new kind of job adds a variant only if it makes something new.
+#[derive(Debug, Clone)]
+pub enum Product {
+    /// An action; the store assigns its version.
+    Action(Box<(ActionView, ActionGoals)>),
+    /// A finished run.
+    Run(Box<NewRun>),
+    /// Finished runs of the job's experiment.
+    Rows(Vec<RunRow>),
+}
+
+/// The writes of a worker in one transaction, in this order.
 #[derive(Debug, Clone, Default)]
 pub struct Advance {
-    /// Runs that ended.
-    pub runs: Vec<NewRun>,
-    /// Runs of the job's experiment that ended. Rows are progress: they set the count of crashes back to 0.
-    pub rows: Vec<RunRow>,
-    /// The action that was made; the store counts its version.
-    pub action: Option<(ActionView, ActionGoals)>,
+    /// Resources to store. Each is progress: it resets the count of crashes.
+    pub products: Vec<Product>,
     /// Progress to show.
     pub progress: Option<JobProgress>,
-    /// State to resume from after a crash. A checkpoint is progress: it sets the count of crashes back to 0.
+    /// State from which the job continues after a crash. A checkpoint is progress: it resets the count of crashes.
     pub checkpoint: Option<Vec<u8>>,
     /// Events that report it.
     pub events: Vec<EventData>,

@@ -1,9 +1,9 @@
 //! Jobs as workers hold them.
 
 use super::{Data, Job, Lease, MemoryStore, found, taken};
-use crate::app::model::{JobId, Timestamp};
+use crate::app::model::{ActionGoals, ActionView, JobId, Timestamp};
 use crate::app::ports::rules::{Loss, is_progress, quarantine, take_back};
-use crate::app::ports::store::{Advance, Claim, Claimed, NewRun, Queue, StoreError, Transition};
+use crate::app::ports::store::{Advance, Claim, Claimed, NewRun, Product, Queue, StoreError, Transition};
 use crate::framework::experiment::RunRow;
 use crate::framework::job::{Event, State};
 use async_trait::async_trait;
@@ -48,6 +48,12 @@ impl Data {
         Ok(Some(Claimed { claim, job: self.view(&job), work: job.work, checkpoint: job.checkpoint }))
     }
 
+    fn insert_action(&mut self, mut view: ActionView, goals: ActionGoals) {
+        let versions = self.actions.values().filter(|(other, _)| other.name == view.name);
+        view.version = versions.map(|(other, _)| other.version).max().unwrap_or(0) + 1;
+        self.actions.insert(view.id.clone(), (view, goals));
+    }
+
     fn insert_run(&mut self, new: NewRun) -> Result<(), StoreError> {
         let place = |run: &NewRun| (run.view.job.clone(), run.view.repetition);
         if self.runs.contains_key(&new.view.id) || self.runs.values().any(|run| place(run) == place(&new)) {
@@ -69,17 +75,13 @@ impl Data {
     fn advance(&mut self, claim: &Claim, step: Advance, at: Timestamp) -> Result<State, StoreError> {
         self.held(claim)?;
         let is_progress = is_progress(&step);
-        let Advance { runs, rows, action, progress, checkpoint, events, transition } = step;
-        for run in runs {
-            self.insert_run(run)?;
-        }
-        for row in rows {
-            self.insert_row(&claim.job, row)?;
-        }
-        if let Some((mut view, goals)) = action {
-            let versions = self.actions.values().filter(|(other, _)| other.name == view.name);
-            view.version = versions.map(|(other, _)| other.version).max().unwrap_or(0) + 1;
-            self.actions.insert(view.id.clone(), (view, goals));
+        let Advance { products, progress, checkpoint, events, transition } = step;
+        for product in products {
+            match product {
+                Product::Action(made) => self.insert_action(made.0, made.1),
+                Product::Run(run) => self.insert_run(*run)?,
+                Product::Rows(rows) => rows.into_iter().try_for_each(|row| self.insert_row(&claim.job, row))?,
+            }
         }
         let job = self.held(claim)?;
         if is_progress {
