@@ -26,6 +26,7 @@ pub mod random;
 pub mod range;
 pub mod recognition;
 pub mod robot;
+pub mod tagged;
 pub mod trajectory;
 pub mod world;
 

@@ -6,7 +6,7 @@ use super::work::{upload, world};
 use cgda::app::model::ErrorKind;
 use cgda::grpc::proto;
 use reqwest::Method;
-use serde_json::json;
+use serde_json::{Value, json};
 use tonic::Code;
 use tonic_types::StatusExt as _;
 
@@ -71,6 +71,67 @@ async fn wrong_requests_are_problems() {
     let chunks = futures_util::stream::iter((0..200).map(|_| Ok::<_, std::io::Error>(vec![b'1'; 1000])));
     let lying = http.request(Method::POST, "/demonstrations").body(reqwest::Body::wrap_stream(chunks));
     send(lying).await.expect_problem(413, "body_too_large");
+}
+
+/// Wrong leaves of every body and object whose type is named by a member of its own.
+#[tokio::test]
+async fn a_wrong_value_inside_a_tagged_object_has_its_own_pointer() {
+    let server = Server::start();
+    let http = Http::new(&server);
+    let ids = ["act", "rob", "wld"].map(|prefix| format!("{prefix}_{}", "0".repeat(32)));
+    let execution = |execution: Value| {
+        let [action, robot, world] = &ids;
+        json!({"kind": "execution", "action": action, "robot": robot, "world": world, "execution": execution})
+    };
+    let constrained = |constraint: Value| execution(json!({"method": "model", "constraints": [constraint]}));
+    let region = |geometry: Value| constrained(json!({"kind": "region", "geometry": geometry}));
+    let cube = json!({"shape": "box", "lower_m": [0, 0, 0], "upper_m": [1, 1, 1]});
+    let at = |point: Value| constrained(json!({"kind": "region", "geometry": cube, "point": point}));
+    let handled = |handling: Value| execution(json!({"method": "sst", "handling": handling}));
+    let penalty = |penalty: Value| handled(json!({"strategy": "penalty", "penalty": penalty}));
+    let placed = |spec: Value| json!({"name": "w", "spec": spec});
+    let surface = json!({"kind": "coverage", "origin_m": [0, 0, 0], "column_step_m": [0, "far", 0],
+        "row_step_m": [0, 0, 1], "columns": 4, "rows": 4, "radius_m": 0.1});
+    let x = json!([{"name": "x", "unit": "mm"}]);
+    let observed = |rows: Value| json!({"observed": {"kind": "rows", "features": x, "rows": rows}});
+    for (path, body, pointer) in [
+        ("/jobs", json!({"kind": "walk"}), "/kind"),
+        (
+            "/jobs",
+            json!({"kind": "generalization", "name": "a", "demonstrations": [3], "t_min_s": 1}),
+            "/demonstrations/0",
+        ),
+        ("/jobs", json!({"kind": "experiment", "repetitions": -1}), "/repetitions"),
+        ("/jobs", json!({"kind": "experiment", "cells": [{"action": "a", "setting": 1}]}), "/cells/0/setting"),
+        ("/jobs", execution(json!({"method": {"name": "sst", "population": -1}})), "/execution/method/population"),
+        ("/jobs", execution(json!({"method": {"name": "sst", "nose": 1}})), "/execution/method/nose"),
+        ("/jobs", execution(json!({"method": {"name": "sts"}})), "/execution/method/name"),
+        ("/jobs", execution(json!({"method": "sts"})), "/execution/method"),
+        ("/jobs", execution(json!({"method": "sst", "tolerance": "near"})), "/execution/tolerance"),
+        ("/jobs", constrained(json!({"kind": "wall"})), "/execution/constraints/0/kind"),
+        ("/jobs", constrained(json!({"kind": "joint_step", "limit_rad": [1]})), "/execution/constraints/0/limit_rad"),
+        ("/jobs", region(json!({"shape": "cone"})), "/execution/constraints/0/geometry/shape"),
+        (
+            "/jobs",
+            region(json!({"shape": "sphere", "center_m": [0, 0, "top"], "radius_m": 1})),
+            "/execution/constraints/0/geometry/center_m/2",
+        ),
+        (
+            "/jobs",
+            region(json!({"shape": "polyhedron", "half_spaces": [{"normal": [0, 0, 1], "offset_m": true}]})),
+            "/execution/constraints/0/geometry/half_spaces/0/offset_m",
+        ),
+        ("/jobs", at(json!({"at": "link", "link": 7})), "/execution/constraints/0/point/link"),
+        ("/jobs", handled(json!({"strategy": "repairing", "max_attempts": 0.5})), "/execution/handling/max_attempts"),
+        ("/jobs", penalty(json!({"kind": "static", "weight": "much"})), "/execution/handling/penalty/weight"),
+        ("/jobs:validate", execution(json!({"method": {"name": "model", "prior": 1.5}})), "/execution/method/prior"),
+        ("/worlds", placed(surface), "/spec/column_step_m/1"),
+        ("/worlds", placed(json!({"kind": "tool_distance", "point_m": [0, 0], "unit": "m"})), "/spec/point_m"),
+        ("/recognitions", observed(json!([[0], ["x"]])), "/observed/rows/1/0"),
+    ] {
+        let problem = http.post(path, &body).await.expect_problem(422, "invalid_request");
+        assert_eq!(problem.text("/errors/0/pointer"), pointer, "{body}: {}", problem.text);
+    }
 }
 
 #[tokio::test]

@@ -36,6 +36,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("framework/random", &[]),
     ("framework/range", &[]),
     ("framework/job", &[]),
+    ("framework/tagged", &["tagged"]),
     (
         "framework/demonstration",
         &["demonstration", "Feature", "is_display_name", "is_hidden", "MAX_DISPLAY_NAME_CHARS"],
@@ -44,12 +45,23 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("framework/recognition", &["recognition", "generalization", "demonstration", "distance", "Feature"]),
     ("framework/robot", &["robot", "range", "is_hidden"]),
     ("framework/trajectory", &["trajectory", "robot", "range"]),
-    ("framework/world", &["world", "trajectory", "robot", "random", "range", "CellSet", "Feature"]),
+    ("framework/world", &["world", "trajectory", "robot", "random", "range", "tagged", "CellSet", "Feature"]),
     (
         "framework/method",
-        &["method", "constraint", "world", "robot", "random", "range", "distance", "CellSet", "infinite_as_null"],
+        &[
+            "method",
+            "constraint",
+            "world",
+            "robot",
+            "random",
+            "range",
+            "distance",
+            "tagged",
+            "CellSet",
+            "infinite_as_null",
+        ],
     ),
-    ("framework/constraint", &["constraint", "method", "robot", "random", "range"]),
+    ("framework/constraint", &["constraint", "method", "robot", "random", "range", "tagged"]),
     (
         "framework/execution",
         &[

@@ -8,6 +8,7 @@ use super::id::{ActionId, DemonstrationId, ExperimentId, JobId, RobotId, RunId, 
 use crate::framework::execution::ExecutionSpec;
 use crate::framework::generalization::Weighting;
 use crate::framework::recognition::Metric;
+use crate::framework::tagged;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -35,16 +36,18 @@ impl JobKind {
     }
 }
 
-/// Request for a new job; `kind` selects the variant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum CreateJob {
-    /// Generalizes demonstrations into an action.
-    Generalization(GeneralizationRequest),
-    /// Executes an action on a robot.
-    Execution(Box<ExecutionRequest>),
-    /// Runs many settings many times.
-    Experiment(ExperimentRequest),
+tagged! {
+    /// Request for a new job; `kind` selects the variant.
+    #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+    #[serde(tag = "kind", rename_all = "snake_case")]
+    pub enum CreateJob {
+        /// Generalizes demonstrations into an action.
+        Generalization(GeneralizationRequest),
+        /// Executes an action on a robot.
+        Execution(Box<ExecutionRequest>),
+        /// Runs many settings many times.
+        Experiment(ExperimentRequest),
+    }
 }
 
 /// Work for a worker.

@@ -3,25 +3,28 @@
 use super::id::{ActionId, DemonstrationId};
 use crate::framework::Feature;
 use crate::framework::recognition::{FeatureDiscrepancy, Metric};
+use crate::framework::tagged;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// The observation: a stored demonstration, or rows.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Observed {
-    /// A demonstration that was uploaded before.
-    Demonstration {
-        /// Id of the demonstration.
-        demonstration: DemonstrationId,
-    },
-    /// Rows in order of time.
-    Rows {
-        /// Features in column order.
-        features: Vec<Feature>,
-        /// One row per sample, with one value per feature.
-        rows: Vec<Vec<f64>>,
-    },
+tagged! {
+    /// The observation: a stored demonstration, or rows.
+    #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+    #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+    pub enum Observed {
+        /// A demonstration that was uploaded before.
+        Demonstration {
+            /// Id of the demonstration.
+            demonstration: DemonstrationId,
+        },
+        /// Rows in order of time.
+        Rows {
+            /// Features in column order.
+            features: Vec<Feature>,
+            /// One row per sample, with one value per feature.
+            rows: Vec<Vec<f64>>,
+        },
+    }
 }
 
 /// Request for a recognition.

@@ -7,14 +7,16 @@
 
 mod shape;
 mod structure;
+mod tag_first;
 
-pub use shape::check as check_shape;
+pub use tag_first::TAGS;
 
 use super::json_pointer;
 use super::model::{AppError, ErrorKind};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_path_to_error::{Path, Segment};
+use tag_first::TagFirst;
 
 /// The value in `bytes`.
 ///
@@ -22,13 +24,11 @@ use serde_path_to_error::{Path, Segment};
 /// `Malformed` or `Invalid`, as the module says.
 pub fn parse<T: DeserializeOwned + Serialize>(bytes: &[u8]) -> Result<T, AppError> {
     structure::check(bytes).map_err(|(path, error)| refusal(pointer(&path), &error))?;
-    let mut json = serde_json::Deserializer::from_slice(bytes);
-    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+    let sent = serde_json::from_slice(bytes).map_err(|error| refusal(String::new(), &error))?;
+    let value = serde_path_to_error::deserialize(TagFirst(&sent)).map_err(|error| {
         let pointer = pointer(error.path());
         refusal(pointer, error.inner())
     })?;
-    json.end().map_err(|error| refusal(String::new(), &error))?;
-    let sent = serde_json::from_slice(bytes).map_err(|error| refusal(String::new(), &error))?;
     shape::check("", &sent, &serde_json::to_value(&value).map_err(AppError::internal)?)?;
     Ok(value)
 }
@@ -70,6 +70,21 @@ mod tests {
         assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/rows/1"));
         let error = parse::<Outer>(br#"{"rows": [], "ro/ws": 1}"#).unwrap_err();
         assert_eq!((error.kind, error.details[0].pointer.as_str()), (ErrorKind::Invalid, "/ro~1ws"));
+    }
+
+    #[test]
+    fn a_wrong_value_is_told_by_its_pointer_wherever_the_tag_stands() {
+        let id = "0".repeat(32);
+        let place = |execution: &str| {
+            let (action, robot, world) = (format!("act_{id}"), format!("rob_{id}"), format!("wld_{id}"));
+            let body = format!(
+                r#"{{"execution": {execution}, "action": "{action}", "robot": "{robot}", "world": "{world}", "kind": "execution"}}"#
+            );
+            parse::<crate::app::model::CreateJob>(body.as_bytes()).unwrap_err().details[0].pointer.clone()
+        };
+        assert_eq!(place(r#"{"method": {"population": -1, "name": "sst"}}"#), "/execution/method/population");
+        assert_eq!(place(r#"{"method": {"population": 10, "name": "sts"}}"#), "/execution/method/name");
+        assert_eq!(place(r#"{"method": "sts"}"#), "/execution/method");
     }
 
     #[test]

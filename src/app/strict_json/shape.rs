@@ -52,8 +52,7 @@ mod tests {
         let id = "0".repeat(32);
         let sent = json!({"kind": "execution", "action": format!("act_{id}"), "robot": format!("rob_{id}"),
             "world": format!("wld_{id}"), "execution": execution});
-        let understood: CreateJob = serde_json::from_value(sent.clone()).unwrap();
-        let found = check("", &sent, &serde_json::to_value(understood).unwrap());
+        let found = crate::app::strict_json::parse::<CreateJob>(sent.to_string().as_bytes());
         found.err().map(|error| error.details[0].pointer.clone())
     }
 

@@ -1,18 +1,21 @@
 //! Constraints and their handling as written by users (TOML presets, REST).
 
+use crate::tagged;
 use serde::{Deserialize, Serialize};
 
-/// A condition on candidates; `kind` selects the variant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum ConstraintSpec {
-    /// A point of the robot stays strictly inside or outside a region.
-    Region(RegionSpec),
-    /// Limits the distance from the individuals a candidate was bred from (the paper's velocity limit).
-    PopulationVelocity(PopulationVelocitySpec),
-    /// Limits the step of each joint from the previous goal's joints; this is what a real robot needs.
-    JointStep(JointStepSpec),
+tagged! {
+    /// A condition on candidates; `kind` selects the variant.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+    #[serde(tag = "kind", rename_all = "snake_case")]
+    pub enum ConstraintSpec {
+        /// A point of the robot stays strictly inside or outside a region.
+        Region(RegionSpec),
+        /// Limits the distance from the individuals a candidate was bred from (the paper's velocity limit).
+        PopulationVelocity(PopulationVelocitySpec),
+        /// Limits the step of each joint from the previous goal's joints; this is what a real robot needs.
+        JointStep(JointStepSpec),
+    }
 }
 
 /// A point of the robot and the region it stays inside or outside of.
@@ -26,8 +29,12 @@ pub struct RegionSpec {
     #[serde(default, skip_serializing_if = "Side::is_inside")]
     pub side: Side,
     /// The constrained point; the tool centre point if absent.
-    #[serde(default)]
+    #[serde(default = "tool")]
     pub point: PointSpec,
+}
+
+fn tool() -> PointSpec {
+    PointSpec::Tool
 }
 
 /// A side of a region's boundary.
@@ -49,41 +56,43 @@ impl Side {
     }
 }
 
-/// A convex region in the base frame; its boundary belongs to neither side.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
-pub enum GeometrySpec {
-    /// Axis-aligned box, each side moved outwards by the dilatation.
-    Box {
-        /// Lower corner, m.
-        lower_m: [f64; 3],
-        /// Upper corner, m.
-        upper_m: [f64; 3],
-        /// Distance by which each side moves outwards, m; may be negative.
-        #[serde(default)]
-        dilatation_m: f64,
-    },
-    /// Sphere around a centre.
-    Sphere {
-        /// Centre, m.
-        center_m: [f64; 3],
-        /// Radius, m (> 0).
-        radius_m: f64,
-    },
-    /// Convex hull of 4 to 128 points, each face moved outwards by the dilatation.
-    Hull {
-        /// Points, base frame, m.
-        points_m: Vec<[f64; 3]>,
-        /// Distance by which each face moves outwards, m; may be negative.
-        #[serde(default)]
-        dilatation_m: f64,
-    },
-    /// Intersection of half-spaces.
-    Polyhedron {
-        /// One or more half-spaces.
-        half_spaces: Vec<HalfSpace>,
-    },
+tagged! {
+    /// A convex region in the base frame; its boundary belongs to neither side.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+    #[serde(tag = "shape", rename_all = "snake_case", deny_unknown_fields)]
+    pub enum GeometrySpec {
+        /// Axis-aligned box, each side moved outwards by the dilatation.
+        Box {
+            /// Lower corner, m.
+            lower_m: [f64; 3],
+            /// Upper corner, m.
+            upper_m: [f64; 3],
+            /// Distance by which each side moves outwards, m; may be negative.
+            #[serde(default)]
+            dilatation_m: f64,
+        },
+        /// Sphere around a centre.
+        Sphere {
+            /// Centre, m.
+            center_m: [f64; 3],
+            /// Radius, m (> 0).
+            radius_m: f64,
+        },
+        /// Convex hull of 4 to 128 points, each face moved outwards by the dilatation.
+        Hull {
+            /// Points, base frame, m.
+            points_m: Vec<[f64; 3]>,
+            /// Distance by which each face moves outwards, m; may be negative.
+            #[serde(default)]
+            dilatation_m: f64,
+        },
+        /// Intersection of half-spaces.
+        Polyhedron {
+            /// One or more half-spaces.
+            half_spaces: Vec<HalfSpace>,
+        },
+    }
 }
 
 /// The points p with normal . p < offset.
@@ -97,30 +106,31 @@ pub struct HalfSpace {
     pub offset_m: f64,
 }
 
-/// The constrained point.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(tag = "at", rename_all = "snake_case", deny_unknown_fields)]
-pub enum PointSpec {
-    /// The tool centre point.
-    #[default]
-    Tool,
-    /// A point fixed to a link of the same robot, for example its elbow.
-    Link {
-        /// Name of the link; it must lie between base and tip.
-        link: String,
-        /// Position in the link's frame, m.
-        #[serde(default)]
-        offset_m: [f64; 3],
-    },
-    /// The tip of a serial chain given explicitly and driven by the robot's free joints: the published runs checked
-    /// their boxes on a chain slightly different from the executed one.
-    Chain {
-        /// Joints of the chain, base first.
-        joints: Vec<ChainJoint>,
-        /// Position of the point after the last joint, m.
-        tip_m: [f64; 3],
-    },
+tagged! {
+    /// The constrained point.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+    #[serde(tag = "at", rename_all = "snake_case", deny_unknown_fields)]
+    pub enum PointSpec {
+        /// The tool centre point.
+        Tool,
+        /// A point fixed to a link of the same robot, for example its elbow.
+        Link {
+            /// Name of the link; it must lie between base and tip.
+            link: String,
+            /// Position in the link's frame, m.
+            #[serde(default)]
+            offset_m: [f64; 3],
+        },
+        /// The tip of a serial chain given explicitly and driven by the robot's free joints: the published runs checked
+        /// their boxes on a chain slightly different from the executed one.
+        Chain {
+            /// Joints of the chain, base first.
+            joints: Vec<ChainJoint>,
+            /// Position of the point after the last joint, m.
+            tip_m: [f64; 3],
+        },
+    }
 }
 
 /// One revolute joint of an explicit chain.
@@ -160,33 +170,35 @@ pub struct JointStepSpec {
     pub start: Option<Vec<f64>>,
 }
 
-/// Treatment of a candidate that violates a constraint; `strategy` selects the variant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(tag = "strategy", rename_all = "snake_case", deny_unknown_fields)]
-pub enum HandlingSpec {
-    /// The candidate is discarded and the optimiser proposes another, at most `max_attempts` times.
-    Rejecting {
-        /// Number of attempts before a candidate counts as failed.
-        #[serde(default = "attempts")]
-        max_attempts: u32,
-    },
-    /// The candidate is moved along the line towards the best known feasible one (or else a random one) until it is
-    /// feasible; the optimiser continues with the repaired candidate.
-    Repairing {
-        /// Number of random candidates tried if no feasible one is known.
-        #[serde(default = "attempts")]
-        max_attempts: u32,
-    },
-    /// The variation operators stay feasible: the step from the parent is halved until the child is feasible, and a
-    /// random initial population is drawn from the feasible region.
-    Operators {
-        /// Number of random candidates tried if no feasible one is known.
-        #[serde(default = "attempts")]
-        max_attempts: u32,
-    },
-    /// The candidate's fitness is made worse.
-    Penalty(PenaltySpec),
+tagged! {
+    /// Treatment of a candidate that violates a constraint; `strategy` selects the variant.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+    #[serde(tag = "strategy", rename_all = "snake_case", deny_unknown_fields)]
+    pub enum HandlingSpec {
+        /// The candidate is discarded and the optimiser proposes another, at most `max_attempts` times.
+        Rejecting {
+            /// Number of attempts before a candidate counts as failed.
+            #[serde(default = "attempts")]
+            max_attempts: u32,
+        },
+        /// The candidate is moved along the line towards the best known feasible one (or else a random one) until it is
+        /// feasible; the optimiser continues with the repaired candidate.
+        Repairing {
+            /// Number of random candidates tried if no feasible one is known.
+            #[serde(default = "attempts")]
+            max_attempts: u32,
+        },
+        /// The variation operators stay feasible: the step from the parent is halved until the child is feasible, and a
+        /// random initial population is drawn from the feasible region.
+        Operators {
+            /// Number of random candidates tried if no feasible one is known.
+            #[serde(default = "attempts")]
+            max_attempts: u32,
+        },
+        /// The candidate's fitness is made worse.
+        Penalty(PenaltySpec),
+    }
 }
 
 impl HandlingSpec {
@@ -228,63 +240,65 @@ pub enum PenaltyForm {
     Multiplicative,
 }
 
-/// Size p of a penalty for violations `v_k` (m or rad) in generation t; `kind` selects the variant. All except `death`
-/// execute the candidate, so use them in simulation.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum PenaltyKind {
-    /// A fixed fitness regardless of the violation; the candidate is neither executed nor counted.
-    Death {
-        /// Fitness of an infeasible candidate, features' unit.
-        #[serde(default = "death")]
-        value: f64,
-    },
-    /// p = weight sum v^exponent.
-    Static {
-        /// Penalty per violation of 1 m or rad.
-        weight: f64,
-        /// Exponent (> 0).
-        #[serde(default = "two")]
-        exponent: f64,
-    },
-    /// p = (weight t)^growth sum v^exponent.
-    Dynamic {
-        /// Coefficient C.
-        weight: f64,
-        /// Exponent alpha (> 0).
-        #[serde(default = "two")]
-        growth: f64,
-        /// Exponent beta (> 0).
-        #[serde(default = "two")]
-        exponent: f64,
-    },
-    /// p = lambda sum v^2; lambda is divided by `relax` after `window` generations with a feasible best, and multiplied
-    /// by `tighten` after as many with an infeasible one.
-    Adaptive {
-        /// Initial lambda.
-        weight: f64,
-        /// Number of generations considered (at least 1).
-        #[serde(default = "three")]
-        window: u32,
-        /// Divisor (> 1); must differ from `tighten`, so that lambda cannot cycle.
-        #[serde(default = "relax")]
-        relax: f64,
-        /// Factor (> 1).
-        #[serde(default = "tighten")]
-        tighten: f64,
-    },
-    /// p = sum v^2 / (2 tau) with tau = temperature cooling^t, but at least `frozen`.
-    Annealing {
-        /// Initial tau.
-        temperature: f64,
-        /// Factor per generation (0 to 1).
-        #[serde(default = "cooling")]
-        cooling: f64,
-        /// Smallest tau (> 0).
-        #[serde(default = "frozen")]
-        frozen: f64,
-    },
+tagged! {
+    /// Size p of a penalty for violations `v_k` (m or rad) in generation t; `kind` selects the variant. All except `death`
+    /// execute the candidate, so use them in simulation.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+    #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+    pub enum PenaltyKind {
+        /// A fixed fitness regardless of the violation; the candidate is neither executed nor counted.
+        Death {
+            /// Fitness of an infeasible candidate, features' unit.
+            #[serde(default = "death")]
+            value: f64,
+        },
+        /// p = weight sum v^exponent.
+        Static {
+            /// Penalty per violation of 1 m or rad.
+            weight: f64,
+            /// Exponent (> 0).
+            #[serde(default = "two")]
+            exponent: f64,
+        },
+        /// p = (weight t)^growth sum v^exponent.
+        Dynamic {
+            /// Coefficient C.
+            weight: f64,
+            /// Exponent alpha (> 0).
+            #[serde(default = "two")]
+            growth: f64,
+            /// Exponent beta (> 0).
+            #[serde(default = "two")]
+            exponent: f64,
+        },
+        /// p = lambda sum v^2; lambda is divided by `relax` after `window` generations with a feasible best, and multiplied
+        /// by `tighten` after as many with an infeasible one.
+        Adaptive {
+            /// Initial lambda.
+            weight: f64,
+            /// Number of generations considered (at least 1).
+            #[serde(default = "three")]
+            window: u32,
+            /// Divisor (> 1); must differ from `tighten`, so that lambda cannot cycle.
+            #[serde(default = "relax")]
+            relax: f64,
+            /// Factor (> 1).
+            #[serde(default = "tighten")]
+            tighten: f64,
+        },
+        /// p = sum v^2 / (2 tau) with tau = temperature cooling^t, but at least `frozen`.
+        Annealing {
+            /// Initial tau.
+            temperature: f64,
+            /// Factor per generation (0 to 1).
+            #[serde(default = "cooling")]
+            cooling: f64,
+            /// Smallest tau (> 0).
+            #[serde(default = "frozen")]
+            frozen: f64,
+        },
+    }
 }
 
 impl PenaltyKind {

@@ -15,8 +15,9 @@ use super::per_goal::{AffgPsoSpec, CmaEsSpec, DeSpec, FiPsoSpec, PsoSpec, SstSpe
 use super::per_goal::{Optimizer, OptimizerError, OptimizerState, PerGoalMethod, SearchSpace};
 use super::whole_run::{BroydenSpec, CoverSpec, ModelSpec, ParticleSpec};
 use crate::range::OutOfRange;
+use crate::tagged;
 use crate::world::WorldProperties;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// A method as the catalogue describes it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -53,15 +54,17 @@ macro_rules! runs {
 
 macro_rules! catalogue {
     ($($(#[doc = $sentence:literal])+ $variant:ident($spec:ident) = $name:literal, $label:literal, $runs:ident;)+) => {
-        /// A method with its parameters; `name` picks one.
-        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-        #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-        #[serde(tag = "name", rename_all = "snake_case")]
-        pub enum MethodSpec {
-            $(
-                $(#[doc = $sentence])+
-                $variant($spec),
-            )+
+        tagged! {
+            /// A method with its parameters; `name` picks one.
+            #[derive(Debug, Clone, PartialEq, Serialize)]
+            #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+            #[serde(tag = "name", rename_all = "snake_case")]
+            pub enum MethodSpec {
+                $(
+                    $(#[doc = $sentence])+
+                    $variant($spec),
+                )+
+            }
         }
 
         $(

@@ -112,6 +112,8 @@ mod kind;
 mod notation;
 mod parameters;
 pub mod per_goal;
+#[cfg(feature = "schema")]
+mod schema;
 pub mod whole_run;
 
 pub use auto::AutoSpec;
@@ -119,7 +121,7 @@ pub use catalogue::{MethodEntry, MethodSpec, catalogue};
 pub use choose::{Chosen, choose};
 pub use contract::{Effects, Knowledge, Method, Needs, Profile, Scope, SimulatorUse};
 pub use kind::MethodKind;
-#[cfg(feature = "schema")]
-pub use notation::MethodChoice;
 pub use notation::method_or_name;
 pub use parameters::{Choice, Parameter, ParameterValue, Parameters, Values};
+#[cfg(feature = "schema")]
+pub use schema::{MethodChoice, MethodName};

@@ -5,18 +5,6 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
-/// How a method is written: its name, which takes its defaults, or an object with its parameters.
-#[cfg(feature = "schema")]
-#[derive(utoipa::ToSchema)]
-#[schema(as = MethodChoice)]
-#[serde(untagged)]
-pub enum MethodChoice {
-    /// A method by its name, for example `model`.
-    Name(String),
-    /// A method with its parameters.
-    Method(MethodSpec),
-}
-
 /// Reads a method written either way.
 ///
 /// # Errors

@@ -1,18 +1,21 @@
 //! World descriptions as written by users (TOML presets, REST); `kind` selects the variant.
 
+use crate::tagged;
 use serde::{Deserialize, Serialize};
 
-/// Description of a simulated world.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum WorldSpec {
-    /// The observation is the tool's position (the paper's wax).
-    ToolPosition(ToolPositionSpec),
-    /// The observation is the tool's distance from a point.
-    ToolDistance(ToolDistanceSpec),
-    /// The observation is the share of a surface's cells that the tool has come close to (the paper's paint).
-    Coverage(CoverageSpec),
+tagged! {
+    /// Description of a simulated world.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+    #[serde(tag = "kind", rename_all = "snake_case")]
+    pub enum WorldSpec {
+        /// The observation is the tool's position (the paper's wax).
+        ToolPosition(ToolPositionSpec),
+        /// The observation is the tool's distance from a point.
+        ToolDistance(ToolDistanceSpec),
+        /// The observation is the share of a surface's cells that the tool has come close to (the paper's paint).
+        Coverage(CoverageSpec),
+    }
 }
 
 /// Features x, y, z: position of the tool centre point in the chain's base frame.

@@ -1,7 +1,7 @@
-//! The OpenAPI 3.1 document, derived from the router: what is not in the URL table is neither served nor documented.
+//! The OpenAPI 3.1 document, derived from the router: only what stands in the URL table is served and documented.
 //!
-//! The handlers and their types say what is particular to them; [`finish`] adds what follows from that for client
-//! generators: names for the variants of unions, bounds, the problems of each operation, examples.
+//! The handlers and their types describe themselves; [`finish`] adds what client generators need and can be derived:
+//! names for the variants of unions, bounds, the problems of each operation, examples.
 
 mod bounds;
 mod examples;
@@ -31,12 +31,12 @@ pub const RENEW: &str = "cargo run --quiet -- openapi > web/openapi.json";
     components(schemas(ProblemDetails)),
     security(("token" = []), ("session" = [])),
     tags(
-        (name = "demonstrations", description = "Recorded showings of an action."),
+        (name = "demonstrations", description = "Recorded performances of an action."),
         (name = "actions", description = "Demonstrations generalized into goals; versions are immutable."),
         (name = "recognitions", description = "Which action an observation looks like."),
-        (name = "robots", description = "A URDF and the part of it that moves; versions are immutable."),
-        (name = "worlds", description = "Where effects happen."),
-        (name = "methods", description = "What a job can search with."),
+        (name = "robots", description = "URDFs with their moving chains; versions are immutable."),
+        (name = "worlds", description = "Simulations of the effects."),
+        (name = "methods", description = "The methods with which a job can search."),
         (name = "jobs", description = "Durable work with live progress."),
         (name = "experiments", description = "Many runs of many settings, compared."),
         (name = "runs", description = "Finished repetitions of execution jobs."),
@@ -58,7 +58,7 @@ impl Modify for Security {
     }
 }
 
-/// A router that starts with what no route says of itself.
+/// An empty router with the general part of the document.
 #[must_use]
 pub fn start<S: Clone + Send + Sync + 'static>() -> OpenApiRouter<S> {
     OpenApiRouter::with_openapi(Document::openapi())
@@ -66,7 +66,7 @@ pub fn start<S: Clone + Send + Sync + 'static>() -> OpenApiRouter<S> {
 
 /// Rows of the URL table.
 pub trait Table<S> {
-    /// Adds the routes of one path, documented as they are and, if they end in `:verb`, routed as `verbs.rs` says.
+    /// Adds the routes of one path to router and document; a path that ends in `:verb` is routed as in `verbs.rs`.
     #[must_use]
     fn at(self, routes: UtoipaMethodRouter<S>) -> Self;
 }
@@ -149,6 +149,31 @@ mod tests {
             assert_eq!(schemas[union]["discriminator"]["propertyName"], tag, "{union}");
         }
         assert!(schemas.keys().all(|name| !name.contains('_')), "{:?}", schemas.keys());
+    }
+
+    fn discriminators<'a>(value: &'a Value, found: &mut BTreeSet<&'a str>) {
+        found.extend(value["discriminator"]["propertyName"].as_str());
+        value.as_object().into_iter().flatten().for_each(|(_, value)| discriminators(value, found));
+        value.as_array().into_iter().flatten().for_each(|value| discriminators(value, found));
+    }
+
+    /// A tag that is not known there would cost errors their exact pointer.
+    #[test]
+    fn every_discriminator_is_read_first() {
+        let document = super::super::document();
+        let mut found = BTreeSet::new();
+        discriminators(&document, &mut found);
+        assert!(found.remove("type"), "of events and of the catalogue, which no client sends");
+        assert_eq!(found, BTreeSet::from(crate::app::strict_json::TAGS));
+    }
+
+    /// The schema of a bare name and the catalogue.
+    #[test]
+    fn a_method_is_named_as_in_the_catalogue() {
+        let document = super::super::document();
+        let names = document["components"]["schemas"]["MethodName"]["enum"].as_array().unwrap();
+        let catalogue = crate::framework::method::catalogue();
+        assert_eq!(*names, catalogue.iter().map(|entry| Value::from(entry.name)).collect::<Vec<_>>());
     }
 
     #[test]

@@ -220,6 +220,18 @@ async fn what_is_refused_over_http_is_refused_over_grpc_with_the_same_code() {
     let pointers: Vec<&str> =
         problem.json["errors"].as_array().unwrap().iter().map(|error| error["pointer"].as_str().unwrap()).collect();
     assert_eq!(places, pointers);
+
+    let ids = ["act", "rob", "wld"].map(|prefix| format!("{prefix}_{}", "0".repeat(32)));
+    let cma = proto::CovarianceAdaptation { step: Some(f64::NAN), ..Default::default() };
+    let method = proto::MethodSpec { name: Some(proto::method_spec::Name::CmaEs(cma)) };
+    let method_choice = Some(proto::execution_spec::MethodChoice::Method(method));
+    let execution = Some(proto::ExecutionSpec { method_choice, ..Default::default() });
+    let [action, robot, world] = ids;
+    let execution = proto::Execution { action, robot, world, execution, ..Default::default() };
+    let work = Some(proto::Work { kind: Some(proto::work::Kind::Execution(Box::new(execution))) });
+    let request = proto::CreateJobRequest { work, ..Default::default() };
+    let details = grpc.jobs.create_job(request).await.unwrap_err().get_error_details();
+    assert_eq!(details.bad_request().unwrap().field_violations[0].field, "/execution/method/step");
 }
 
 #[tokio::test]

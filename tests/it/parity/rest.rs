@@ -174,7 +174,9 @@ impl Rest {
         if union == Object::default() {
             return Shape::Names(plain.into_iter().collect());
         }
-        union.variants.extend(plain.into_iter().map(|name| (name, Shape::Object(Object::default()))));
+        for name in plain {
+            union.variants.entry(name).or_insert_with(|| Shape::Object(Object::default()));
+        }
         Shape::Object(union)
     }
 }

@@ -1,0 +1,80 @@
+//! Reads JSON with the tag of each object before its other members.
+//!
+//! A tag names the type of what stands beside it. Met first, it lets the rest be read in place, so that an error there
+//! has a path; see [`tagged`](crate::framework::tagged).
+
+use serde::de::value::{MapDeserializer, SeqDeserializer};
+use serde::de::{Deserializer, IntoDeserializer, Visitor};
+use serde::forward_to_deserialize_any;
+use serde_json::{Error, Value};
+
+/// Members that name the type of the object they stand in.
+pub const TAGS: [&str; 5] = ["kind", "name", "shape", "at", "strategy"];
+
+/// A value of which each object gives its tags first.
+#[derive(Debug, Clone, Copy)]
+pub struct TagFirst<'de>(pub &'de Value);
+
+impl<'de> IntoDeserializer<'de, Error> for TagFirst<'de> {
+    type Deserializer = Self;
+
+    fn into_deserializer(self) -> Self {
+        self
+    }
+}
+
+impl<'de> Deserializer<'de> for TagFirst<'de> {
+    type Error = Error;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.0 {
+            Value::Object(members) => {
+                let mut sorted: Vec<_> = members.iter().map(|(key, value)| (key.as_str(), Self(value))).collect();
+                sorted.sort_by_key(|(key, _)| !TAGS.contains(key));
+                visitor.visit_map(MapDeserializer::new(sorted.into_iter()))
+            }
+            Value::Array(list) => {
+                let mut items: SeqDeserializer<_, Error> = SeqDeserializer::new(list.iter().map(Self));
+                let value = visitor.visit_seq(&mut items)?;
+                items.end()?;
+                Ok(value)
+            }
+            leaf => leaf.deserialize_any(visitor),
+        }
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        if self.0.is_null() { visitor.visit_none() } else { visitor.visit_some(self) }
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(self, _: &'static str, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.0.deserialize_enum(name, variants, visitor)
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
+        tuple_struct map struct identifier ignored_any
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn the_value_stays_the_same() {
+        let value = json!({"a": [1, -1, 0.5, "text", null, true, {}], "kind": {"b": {"c": u64::MAX}, "at": 1}});
+        let read: Value = serde_path_to_error::deserialize(TagFirst(&value)).unwrap();
+        assert_eq!(read, value);
+    }
+}
