@@ -1,6 +1,6 @@
 //! `POST /demonstrations`: one file as the raw body, or several recorded together as `multipart/form-data`.
 //!
-//! The body is counted while it streams in: one byte above the limit ends it with 413, whatever its declared length.
+//! The body is counted while it streams in: one byte above the limit answers 413, whatever its declared length.
 
 use super::answer::created;
 use super::body;
@@ -11,7 +11,7 @@ use crate::app::model::{
     AppError, DemonstrationView, ErrorKind, FieldError, UploadDemonstration, UploadFile, UploadOptions, limits,
 };
 use crate::framework::Feature;
-use crate::framework::demonstration::ClockPolicy;
+use crate::framework::demonstration::{ClockPolicy, Format};
 use axum::extract::multipart::{Field, Multipart};
 use axum::extract::{FromRequest as _, Request};
 use axum::http::header::{CONTENT_ENCODING, CONTENT_TYPE};
@@ -20,20 +20,22 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use utoipa::{IntoParams, ToSchema};
 
-/// How the upload is to be read; a form's fields of the same names come first.
+/// Treatment of the upload; a form's fields of the same names take precedence.
 #[derive(Debug, Default, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct UploadParameters {
-    /// Display name; made of the file name when absent.
+    /// Display name; derived from the file name if absent.
     name: Option<String>,
     /// File name of a raw body; it names the stream.
     file_name: Option<String>,
-    /// `csv`, `yarp` or `json`; found from the content when absent.
+    /// Format of the files; recognized from the content if absent.
+    #[param(value_type = Option<Format>)]
     format: Option<String>,
-    /// What to do about clocks that disagree: `as_recorded` or `align_by_start`.
+    /// Treatment of clocks that disagree; `as_recorded` if absent.
+    #[param(value_type = Option<ClockPolicy>)]
     clock_policy: Option<String>,
-    /// Name of the time column; the first column when absent.
+    /// Name of the time column; `time`, `time_s`, `t` or `timestamp` if absent.
     time_column: Option<String>,
     /// Names of the features of files without a header, in column order, separated by commas.
     features: Option<String>,
@@ -45,16 +47,24 @@ pub struct UploadParameters {
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "documents the form, which is read field by field")]
 pub struct UploadForm {
-    /// Files that were recorded together; each names a stream.
+    /// Files that were recorded together; the name of each file is the name of its stream.
     #[schema(value_type = Vec<String>, format = Binary)]
     files: Vec<String>,
     /// Display name.
     name: Option<String>,
-    /// As the parameter of the same name; likewise `clock_policy`, `time_column`, `features` and `units`.
-    format: Option<String>,
+    /// Format of the files; recognized from the content if absent.
+    format: Option<Format>,
+    /// Treatment of clocks that disagree; `as_recorded` if absent.
+    clock_policy: Option<ClockPolicy>,
+    /// Name of the time column; `time`, `time_s`, `t` or `timestamp` if absent.
+    time_column: Option<String>,
+    /// Names of the features of files without a header, in column order, separated by commas.
+    features: Option<String>,
+    /// Units by feature name, `x=m,force=N`.
+    units: Option<String>,
 }
 
-/// Uploads a demonstration; what makes it unusable is told by stream, row and column.
+/// Uploads a demonstration. Each error names the stream, row and column that make a file unusable.
 #[utoipa::path(post, path = "/demonstrations", operation_id = "uploadDemonstration", tag = "demonstrations",
     params(UploadParameters),
     request_body(description = "The file, whatever its content type, or a form with several.", content(
@@ -114,14 +124,15 @@ async fn files(
             let bytes = field_bytes(field, limits::MAX_FIELD_BYTES)
                 .await?
                 .ok_or_else(|| body::too_large(limits::MAX_FIELD_BYTES))?;
-            let text = String::from_utf8(bytes).map_err(|_| field_error(&name, "not_utf8", "the field is no UTF-8"))?;
+            let text =
+                String::from_utf8(bytes).map_err(|_| field_error(&name, "not_utf8", "the field is not UTF-8"))?;
             *parameter(parameters, &name)? = Some(text);
         }
     }
     Ok(files)
 }
 
-/// The field's bytes, or `None` when there are more than `limit`.
+/// The field's bytes; `None` if there are more than `limit`.
 async fn field_bytes(mut field: Field<'_>, limit: usize) -> Result<Option<Vec<u8>>, AppError> {
     let mut bytes = Vec::new();
     while let Some(chunk) = field.chunk().await.map_err(|error| body::unreadable(&error.body_text()))? {
@@ -142,8 +153,8 @@ fn parameter<'a>(parameters: &'a mut UploadParameters, name: &str) -> Result<&'a
         "features" => &mut parameters.features,
         "units" => &mut parameters.units,
         _ => {
-            let detail = "the form has no such field: files need a file name, others are name, format, clock_policy, \
-                          time_column, features, units";
+            let detail = "the form has no such field: give name, format, clock_policy, time_column, features or units; a \
+                          file needs a file name";
             return Err(field_error(name, "unknown_field", detail));
         }
     })

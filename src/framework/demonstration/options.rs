@@ -6,7 +6,9 @@ use std::collections::BTreeMap;
 
 /// Format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "schema", schema(as = UploadFormat))]
 pub enum Format {
     /// Separated by comma, semicolon or tab, with a header line.
     Csv,
@@ -19,6 +21,7 @@ pub enum Format {
 
 /// Treatment of the clocks of a demonstration's streams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ClockPolicy {
     /// Times stay as they were recorded.

@@ -1,26 +1,25 @@
 //! Conversion of demonstrations.
 
-use super::enumeration::Enumeration as _;
+use super::enumeration::{Enumeration as _, or_default};
 use super::{all, finite_or_none, text, time};
 use crate::app::model::{
     AppError, DemonstrationReport, DemonstrationView, PatchDemonstration, SamplesQuery, SamplesView, Series,
     StreamView, UploadOptions,
 };
 use crate::framework::Feature;
-use crate::framework::demonstration::Finding;
+use crate::framework::demonstration::{Finding, Format};
 use crate::grpc::proto;
-use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
 /// Display name and options of an upload.
 ///
 /// # Errors
-/// `Invalid` for an unknown format or clock policy.
+/// `Invalid` for a number that is not a format or a clock policy.
 pub fn header(header: proto::UploadHeader) -> Result<(Option<String>, UploadOptions), AppError> {
     let proto::UploadHeader { name, format, clock_policy, time_column, features, units } = header;
     let options = UploadOptions {
-        format: choice("/format", format)?,
-        clock_policy: choice("/clock_policy", clock_policy)?.unwrap_or_default(),
+        format: Format::read("/format", format)?,
+        clock_policy: or_default("/clock_policy", clock_policy)?,
         time_column: text(time_column),
         features: features.into_iter().map(|name| Feature::new(name, "")).collect(),
         // Each stream of an upload over gRPC has the same features, as over HTTP.
@@ -28,12 +27,6 @@ pub fn header(header: proto::UploadHeader) -> Result<(Option<String>, UploadOpti
         units,
     };
     Ok((text(name), options))
-}
-
-/// One of the names that the type has in JSON; `None` if empty.
-fn choice<T: DeserializeOwned>(pointer: &str, name: String) -> Result<Option<T>, AppError> {
-    let value = text(name).map(|name| serde_json::from_value(serde_json::Value::from(name))).transpose();
-    value.map_err(|error| AppError::field(pointer, "invalid_value", error.to_string()))
 }
 
 /// Id of the demonstration and the samples asked for.
@@ -108,14 +101,14 @@ impl From<Series> for proto::Series {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::demonstration::{ClockPolicy, FindingCode, Format};
+    use crate::framework::demonstration::{ClockPolicy, FindingCode};
 
     #[test]
-    fn a_header_is_read_and_unknown_names_are_refused() {
+    fn a_header_is_read_and_unknown_numbers_are_refused() {
         let read = proto::UploadHeader {
             name: "wax".to_owned(),
-            format: "yarp".to_owned(),
-            clock_policy: "align_by_start".to_owned(),
+            format: proto::UploadFormat::Yarp as i32,
+            clock_policy: proto::ClockPolicy::AlignByStart as i32,
             time_column: "t".to_owned(),
             features: vec!["x".to_owned()],
             units: [("x".to_owned(), "m".to_owned())].into(),
@@ -125,7 +118,7 @@ mod tests {
         assert_eq!((options.format, options.clock_policy), (Some(Format::Yarp), ClockPolicy::AlignByStart));
         assert_eq!((options.features[0].name.as_str(), options.units["x"].as_str()), ("x", "m"));
         assert_eq!(header(proto::UploadHeader::default()).unwrap(), (None, UploadOptions::default()));
-        let wrong = proto::UploadHeader { clock_policy: "report".to_owned(), ..read };
+        let wrong = proto::UploadHeader { clock_policy: 9, ..read };
         assert_eq!(header(wrong).unwrap_err().details[0].pointer, "/clock_policy");
     }
 

@@ -3,7 +3,7 @@
 
 use crate::app::model::{AppError, JobKind, ParameterType};
 use crate::framework::constraint::{OnInfeasible, PenaltyForm, Side};
-use crate::framework::demonstration::Severity;
+use crate::framework::demonstration::{ClockPolicy, Format, Severity};
 use crate::framework::experiment::Quantity;
 use crate::framework::generalization::Weighting;
 use crate::framework::job::State;
@@ -95,6 +95,8 @@ enumerations! {
     JobKind = JobKind, "a kind of job" { Generalization, Execution, Experiment }
     JointKind = JointKind, "a kind of joint" { Revolute, Continuous, Prismatic, Fixed, Floating, Planar, Spherical }
     LimitKind = LimitKind, "a kind of limit" { Position, Velocity, Acceleration }
+    Format = UploadFormat, "a format of files" { Csv, Yarp, Json }
+    ClockPolicy = ClockPolicy, "a clock policy" { AsRecorded, AlignByStart }
     Severity = Severity, "a severity" { Error, Warning }
     SurfaceView = SurfaceView, "a view of a surface" { Percent, Cells }
     Quantity = Quantity, "a quantity" { Evaluations, Discrepancy, Painted }
