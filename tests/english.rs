@@ -24,9 +24,6 @@ const PHRASES: [&str; 9] = [
     "one a core",
 ];
 
-/// Folders whose comments still await this wording. Entries leave this list; none joins it.
-const AWAITING: [&str; 1] = ["src/http/"];
-
 /// Words that may follow "is no".
 const AFTER_IS_NO: [&str; 5] = ["longer", "more", "less", "better", "worse"];
 
@@ -59,7 +56,7 @@ fn texts(folders: &[&str], extensions: &[&str]) -> Vec<(String, String)> {
     found.sort();
     let relative = |path: &Path| path.strip_prefix(root()).unwrap().display().to_string();
     let texts = found.iter().map(|path| (relative(path), fs::read_to_string(path).unwrap()));
-    texts.filter(|(file, _)| !AWAITING.iter().any(|folder| file.starts_with(folder))).collect()
+    texts.collect()
 }
 
 /// Rust sources of the service, the core, tests, benches and examples.

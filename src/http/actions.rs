@@ -13,7 +13,7 @@ use utoipa::IntoParams;
 #[utoipa::path(post, path = "/actions", operation_id = "createAction", tag = "actions",
     params(("Idempotency-Key" = Option<String>, Header, description = "Same key and body: same job.")),
     request_body = GeneralizationRequest,
-    responses((status = 202, description = "The job that makes the action.", body = JobView)))]
+    responses((status = 202, description = "The job that generalizes them.", body = JobView)))]
 pub async fn create(
     AsCaller(app): AsCaller,
     IdempotencyKey(key): IdempotencyKey,
@@ -43,12 +43,12 @@ pub async fn get(AsCaller(app): AsCaller, Path(id): Path<ActionId>) -> Result<Js
 /// The goals of an action.
 #[utoipa::path(get, path = "/actions/{id}/goals", operation_id = "getActionGoals", tag = "actions",
     params(("id" = ActionId, Path)),
-    responses((status = 200, description = "One row a goal, one column a feature.", body = ActionGoals)))]
+    responses((status = 200, description = "One row per goal, one column per feature.", body = ActionGoals)))]
 pub async fn goals(AsCaller(app): AsCaller, Path(id): Path<ActionId>) -> Result<Json<ActionGoals>, Problem> {
     Ok(Json(app.action_goals(&id).await?))
 }
 
-/// How many points.
+/// Number of points of the curve.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]

@@ -1,4 +1,4 @@
-//! `/demonstrations`: look at them, rename, exclude, delete, export; the upload is in `uploads.rs`.
+//! `/demonstrations`: read, rename, exclude, delete and export; the upload is in `uploads.rs`.
 
 use super::answer::{ExportParameters, PageParameters, file, tagged};
 use super::extract::{AsCaller, IfMatch, Json, Path, Query};
@@ -47,7 +47,7 @@ pub async fn patch(
     Ok(tagged(view.revision, view))
 }
 
-/// Deletes a demonstration; actions made of it keep their goals.
+/// Deletes a demonstration; actions generalized from it keep their goals.
 #[utoipa::path(delete, path = "/demonstrations/{id}", operation_id = "deleteDemonstration", tag = "demonstrations",
     params(("id" = DemonstrationId, Path), ("If-Match" = Option<String>, Header, description = "ETag to delete.")),
     responses((status = 204, description = "Deleted.")))]
@@ -60,25 +60,25 @@ pub async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Which samples.
+/// Selection of samples.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct SamplesParameters {
-    /// Features by name, separated by commas; all when absent.
+    /// Features by name, separated by commas; all if absent.
     features: Option<String>,
-    /// From this time on, seconds after the first sample.
+    /// Start of the section, seconds after the first sample.
     from: Option<f64>,
-    /// Up to this time, seconds after the first sample.
+    /// End of the section, seconds after the first sample.
     to: Option<f64>,
-    /// Maximum number of points per feature, by minimum and maximum of each bin.
+    /// Maximum number of points per feature; longer series keep the minimum and the maximum of each bin.
     max_points: Option<u32>,
 }
 
 /// Samples, decimated so that no minimum and no maximum is lost.
 #[utoipa::path(get, path = "/demonstrations/{id}/samples", operation_id = "getDemonstrationSamples",
     tag = "demonstrations", params(("id" = DemonstrationId, Path), SamplesParameters),
-    responses((status = 200, description = "One series a feature.", body = SamplesView)))]
+    responses((status = 200, description = "One series per feature.", body = SamplesView)))]
 pub async fn samples(
     AsCaller(app): AsCaller,
     Path(id): Path<DemonstrationId>,
@@ -89,7 +89,7 @@ pub async fn samples(
     Ok(Json(app.demonstration_samples(&id, query).await?))
 }
 
-/// What the reader found at upload.
+/// Findings of the reader at upload.
 #[utoipa::path(get, path = "/demonstrations/{id}/report", operation_id = "getDemonstrationReport",
     tag = "demonstrations", params(("id" = DemonstrationId, Path)),
     responses((status = 200, description = "Findings in the order of the data.", body = DemonstrationReport)))]

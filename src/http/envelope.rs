@@ -16,12 +16,12 @@ use std::sync::Arc;
 const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");
 const MAX_REQUEST_ID: usize = 64;
 
-/// Time and chance, from their ports.
+/// Ports of the envelope.
 #[derive(Clone)]
 pub struct Sources {
-    /// Measures how long an answer took.
+    /// Measures the duration of a request.
     pub clock: Arc<dyn Clock>,
-    /// Names requests that come without a usable id.
+    /// Source of ids for requests that come without a usable one.
     pub ids: Arc<dyn Ids>,
 }
 
@@ -102,7 +102,7 @@ mod tests {
     use tower::ServiceExt as _;
     use tower_http::catch_panic::CatchPanicLayer;
 
-    /// Neither time nor chance.
+    /// Ports that return constants.
     struct Stopped;
 
     impl Clock for Stopped {

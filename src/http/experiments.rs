@@ -12,7 +12,7 @@ use axum::response::Response;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-/// Submits an experiment; it is named in the job's result at once.
+/// Submits an experiment; the job's result names it at once.
 #[utoipa::path(post, path = "/experiments", operation_id = "createExperiment", tag = "experiments",
     params(("Idempotency-Key" = Option<String>, Header, description = "Same key and body: same job.")),
     request_body = ExperimentRequest,
@@ -35,7 +35,7 @@ pub async fn list(
     Ok(Json(app.list_experiments(page.into()).await?))
 }
 
-/// One experiment and how far it is.
+/// One experiment with its progress.
 #[utoipa::path(get, path = "/experiments/{id}", operation_id = "getExperiment", tag = "experiments",
     params(("id" = ExperimentId, Path)),
     responses((status = 200, description = "The experiment.", body = ExperimentView)))]
@@ -46,21 +46,21 @@ pub async fn get(AsCaller(app): AsCaller, Path(id): Path<ExperimentId>) -> Resul
 /// The table so far: mean, spread, 95 % interval and order statistics of each cell.
 #[utoipa::path(get, path = "/experiments/{id}/table", operation_id = "getExperimentTable", tag = "experiments",
     params(("id" = ExperimentId, Path)),
-    responses((status = 200, description = "One entry a cell.", body = ExperimentTable)))]
+    responses((status = 200, description = "One entry per cell.", body = ExperimentTable)))]
 pub async fn table(AsCaller(app): AsCaller, Path(id): Path<ExperimentId>) -> Result<Json<ExperimentTable>, Problem> {
     Ok(Json(app.experiment_table(&id).await?))
 }
 
-/// Which rows.
+/// Filter and page of rows.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct RowsParameters {
-    /// Of this cell only, by its index from 0.
+    /// Only rows of this cell, by its index from 0.
     cell: Option<u32>,
     /// Maximum number of items on the page.
     page_size: Option<u32>,
-    /// `next_page_token` of the page before.
+    /// `next_page_token` of the previous page.
     page_token: Option<String>,
 }
 
@@ -77,7 +77,7 @@ pub async fn rows(
     Ok(Json(app.experiment_rows(&id, wanted.cell, page).await?))
 }
 
-/// Which cells.
+/// The two cells and what to compare.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
@@ -86,12 +86,12 @@ pub struct CompareParameters {
     first: u32,
     /// Index of the second cell, from 0.
     second: u32,
-    /// What is compared.
+    /// Quantity to compare.
     #[param(inline)]
     quantity: Quantity,
 }
 
-/// Two cells seed by seed: mean difference with its 95 % interval, and Wilcoxon's signed rank test.
+/// Comparison of two cells seed by seed: mean difference with its 95 % interval, and Wilcoxon's signed rank test.
 #[utoipa::path(get, path = "/experiments/{id}:compare", operation_id = "compareExperiment", tag = "experiments",
     params(("id" = ExperimentId, Path), CompareParameters),
     responses((status = 200, description = "The comparison.", body = ExperimentComparison),

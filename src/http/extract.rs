@@ -1,4 +1,4 @@
-//! Extractors whose rejections are problems: axum's own answer in plain text.
+//! Extractors that reject with a problem; those of axum reject with plain text.
 
 use super::problem::Problem;
 use super::{Settings, body};
@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::sync::Arc;
 
-/// A JSON body, in or out.
+/// A JSON body, of a request or of a response.
 #[derive(Debug)]
 pub struct Json<T>(pub T);
 
@@ -40,7 +40,7 @@ impl<T: Serialize> IntoResponse for Json<T> {
     }
 }
 
-/// The use-cases on behalf of whoever `auth.rs` has admitted.
+/// The use-cases, on behalf of the caller that `auth.rs` admitted.
 pub struct AsCaller(pub UseCases);
 
 impl<S: Send + Sync> FromRequestParts<S> for AsCaller
@@ -51,7 +51,7 @@ where
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
         let caller = parts.extensions.get::<Caller>();
-        let caller = caller.ok_or_else(|| AppError::internal("a handler behind no authentication"))?;
+        let caller = caller.ok_or_else(|| AppError::internal("a handler runs without authentication"))?;
         Ok(Self(App::from_ref(state).on_behalf_of(*caller)))
     }
 }
@@ -99,14 +99,14 @@ impl<S: Send + Sync> FromRequestParts<S> for IdempotencyKey {
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
         let Some(value) = parts.headers.get("idempotency-key") else { return Ok(Self(None)) };
         let refuse = |_| {
-            let message = "the Idempotency-Key header must hold visible ASCII characters";
+            let message = "the Idempotency-Key header must consist of visible ASCII characters";
             Problem::from(AppError::new(ErrorKind::Malformed, "invalid_idempotency_key", message))
         };
         value.to_str().map(|key| Self(Some(key.to_owned()))).map_err(refuse)
     }
 }
 
-/// The `If-Match` header: the revision a change is meant for; absent or `*` is any.
+/// The `If-Match` header: the revision to change; `None` if it is absent or `*`, for any revision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct IfMatch(pub Option<u64>);
 
@@ -121,14 +121,14 @@ impl<S: Send + Sync> FromRequestParts<S> for IfMatch {
             Some(revision) => Ok(Self(Some(revision))),
             None if tag == "*" => Ok(Self(None)),
             None => {
-                let message = format!("If-Match {tag:?} is no ETag this resource ever had: read it again");
+                let message = format!("If-Match {tag:?} is not an ETag of this resource: read the resource again");
                 Err(AppError::new(ErrorKind::Precondition, "revision_mismatch", message).into())
             }
         }
     }
 }
 
-/// The problem of a content type this address does not read.
+/// Problem for a content type that this address does not read.
 pub fn unsupported(found: &str, expected: &str) -> Problem {
     let message = format!("content type is {found:?}: send {expected}");
     let error = AppError::new(ErrorKind::Malformed, "unsupported_media_type", message);

@@ -1,4 +1,4 @@
-//! Is it alive, is it ready, what can it do: the three addresses that need no token.
+//! Liveness, readiness and the API's description: the three addresses that need no token.
 
 use super::extract::Json;
 use super::problem::Problem;
@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-/// How the service is.
+/// Health of the service.
 #[derive(Debug, Serialize, ToSchema)]
 pub struct Health {
     /// `ok`.
@@ -28,9 +28,9 @@ pub async fn livez() -> Json<Health> {
     Json(OK)
 }
 
-/// Whether requests will be answered and jobs worked on.
+/// Whether the service answers requests and works on jobs.
 #[utoipa::path(get, path = "/readyz", operation_id = "readyz", tag = "service", security(()),
-    responses((status = 200, description = "Requests are answered and jobs are worked on.", body = Health),
+    responses((status = 200, description = "The service answers requests and works on jobs.", body = Health),
         (status = 503, description = "The service is starting or stopping.")))]
 pub async fn readyz(State(app): State<App>) -> Result<Json<Health>, Problem> {
     if !app.is_ready() {

@@ -1,4 +1,4 @@
-//! `/jobs`: submit, look, steer; their events are in `events.rs`.
+//! `/jobs`: submit, read, pause, resume, cancel, clone; the events of a job are in `events.rs`.
 
 use super::answer::accepted;
 use super::extract::{AsCaller, IdempotencyKey, Json, Path, Query};
@@ -24,7 +24,7 @@ pub async fn create(
     Ok(accepted(app.create_job(request, key).await?))
 }
 
-/// Dry run: what is wrong with a job and what it would cost.
+/// Dry run of a job: its errors, or its estimated cost.
 #[utoipa::path(post, path = "/jobs:validate", operation_id = "validateJob", tag = "jobs", params(DryRunParameters),
     request_body = CreateJob, responses((status = 200, description = "Errors, or an estimate.", body = Validation)))]
 pub async fn validate(
@@ -35,28 +35,28 @@ pub async fn validate(
     Ok(Json(app.validate_job(request, wanted.robot_trial_s).await?))
 }
 
-/// What a dry run is told beside the job.
+/// Assumptions of a dry run.
 #[derive(Debug, Clone, Copy, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct DryRunParameters {
-    /// How long a trial on a robot takes, seconds; 15 when absent.
+    /// Duration of a trial on a robot, seconds; 15 if absent.
     robot_trial_s: Option<f64>,
 }
 
-/// Which jobs.
+/// Filter and page of jobs.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct JobsParameters {
-    /// In one of these states, separated by commas, for example `QUEUED,RUNNING`; any when absent.
+    /// Only jobs in one of these states, separated by commas, for example `QUEUED,RUNNING`; all if absent.
     state: Option<String>,
-    /// Of this kind.
+    /// Only jobs of this kind.
     #[param(inline)]
     kind: Option<JobKind>,
     /// Maximum number of items on the page.
     page_size: Option<u32>,
-    /// `next_page_token` of the page before.
+    /// `next_page_token` of the previous page.
     page_token: Option<String>,
 }
 
@@ -79,7 +79,7 @@ fn states(text: Option<&str>) -> Result<Vec<JobState>, AppError> {
 
 fn state(name: &str) -> Result<JobState, AppError> {
     serde_json::from_value(serde_json::Value::from(name)).map_err(|_| {
-        let message = format!("{name:?} is no state of a job: give for example QUEUED, RUNNING or SUCCEEDED");
+        let message = format!("{name:?} is not a state of a job: give for example QUEUED, RUNNING or SUCCEEDED");
         AppError::new(ErrorKind::Malformed, "invalid_query", message)
     })
 }
@@ -91,7 +91,7 @@ pub async fn get(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Json<
     Ok(Json(app.get_job(&id).await?))
 }
 
-/// Asks a job to rest at its next checkpoint.
+/// Asks a job to pause at its next checkpoint.
 #[utoipa::path(post, path = "/jobs/{id}:pause", operation_id = "pauseJob", tag = "jobs",
     params(("id" = JobId, Path)),
     responses((status = 200, description = "The job.", body = JobView),
@@ -100,7 +100,7 @@ pub async fn pause(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Jso
     Ok(Json(app.pause_job(&id).await?))
 }
 
-/// Lets a paused job go on.
+/// Resumes a paused job.
 #[utoipa::path(post, path = "/jobs/{id}:resume", operation_id = "resumeJob", tag = "jobs",
     params(("id" = JobId, Path)),
     responses((status = 200, description = "The job.", body = JobView),
@@ -109,11 +109,11 @@ pub async fn resume(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Js
     Ok(Json(app.resume_job(&id).await?))
 }
 
-/// Asks a job to end without a result; finished runs are kept.
+/// Asks a job to stop without a result; its finished runs are kept.
 #[utoipa::path(post, path = "/jobs/{id}:cancel", operation_id = "cancelJob", tag = "jobs",
     params(("id" = JobId, Path)),
     responses((status = 200, description = "The job.", body = JobView),
-        (status = 409, description = "It ended already.")))]
+        (status = 409, description = "It has already ended.")))]
 pub async fn cancel(AsCaller(app): AsCaller, Path(id): Path<JobId>) -> Result<Json<JobView>, Problem> {
     Ok(Json(app.cancel_job(&id).await?))
 }

@@ -1,10 +1,10 @@
-//! REST: the router is the URL table; one file a resource.
+//! REST: the router is the URL table; one file per resource.
 //!
 //! # Architecture Invariants
-//! - A handler extracts, makes one `app` call and converts: what a use-case means is decided in `app`.
-//! - Every error answer is a problem (`problem.rs`), those of axum and of panics included (`envelope.rs`).
-//! - Nothing but health and the API's description answers without credentials (`auth.rs`).
-//! - Time-outs and compression stay off streams and off gRPC, which shares the port.
+//! - A handler extracts, makes one `app` call and converts; every decision is made in `app`.
+//! - Every error response is a problem (`problem.rs`), including those of axum and of panics (`envelope.rs`).
+//! - Only health and the API's description need no credentials (`auth.rs`).
+//! - Streams and gRPC, which shares the port, have neither time-outs nor compression.
 
 mod actions;
 mod answer;
@@ -47,21 +47,21 @@ use tower_http::timeout::TimeoutLayer;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-/// Where the API lives.
+/// Path of the API.
 pub const API: &str = "/api/v1";
 
-/// What the edge itself may be told.
+/// Settings of this edge.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Maximum size of a body that is not an upload, bytes.
     pub body_limit_bytes: usize,
-    /// Longest time until the head of an answer; not for uploads and gRPC.
+    /// Maximum time until the head of a response; uploads and gRPC are exempt.
     pub timeout: Duration,
-    /// Names of this server beside its numeric addresses and `localhost`.
+    /// Host names of this server besides its numeric addresses and `localhost`.
     pub hosts: Vec<String>,
 }
 
-/// What handlers share.
+/// State that handlers share.
 #[derive(Clone)]
 pub struct Api {
     app: App,
@@ -123,7 +123,7 @@ fn resources() -> OpenApiRouter<Api> {
         .at(routes!(trajectories::export))
 }
 
-/// The rest of the table: long bodies in or out, without limit of time and without compression.
+/// The rest of the table: uploads and streams, without time-out and without compression.
 fn streams() -> OpenApiRouter<Api> {
     OpenApiRouter::new().at(routes!(uploads::create)).at(routes!(events::watch))
 }
@@ -138,13 +138,13 @@ pub fn document() -> serde_json::Value {
     openapi::finish(&service().nest(API, resources().merge(streams())).into_openapi())
 }
 
-/// The OpenAPI document as it is served, printed and kept: JSON with two spaces and a line end.
+/// The OpenAPI document as text, as it is served, printed and kept: JSON indented by two spaces, with a final newline.
 #[must_use]
 pub fn document_json() -> String {
     format!("{:#}\n", document())
 }
 
-/// Everything that answers on the HTTP port; `grpc` is what gRPC adds to it, without a fallback of its own.
+/// Router of the whole port; `grpc` holds the routes of gRPC and must not have a fallback of its own.
 pub fn router(app: App, access: Access, settings: Settings, grpc: Router) -> Router {
     let guard = auth::Guard { access, hosts: settings.hosts.clone().into() };
     let timeout = TimeoutLayer::with_status_code(StatusCode::REQUEST_TIMEOUT, settings.timeout);
@@ -171,7 +171,7 @@ pub fn router(app: App, access: Access, settings: Settings, grpc: Router) -> Rou
     Router::new().fallback_service(all.map_request(verbs::rewrite))
 }
 
-/// What no route takes: the dashboard's, an unknown gRPC method, or nothing.
+/// Response to a request that no route takes: a file of the dashboard, gRPC's "unimplemented", or 404.
 async fn fallback(request: Request) -> Response {
     let content_type = request.headers().get(CONTENT_TYPE).map_or(&b""[..], HeaderValue::as_bytes);
     if content_type.starts_with(b"application/grpc") {
@@ -181,7 +181,7 @@ async fn fallback(request: Request) -> Response {
     page.unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
 }
 
-/// A gRPC answer without a message: the status (12 unimplemented, 16 unauthenticated) in the head.
+/// A gRPC response without a message; its headers hold the status (12 unimplemented, 16 unauthenticated).
 fn grpc_status(code: &'static str) -> Response {
     let status = HeaderValue::from_static(code);
     let headers = [

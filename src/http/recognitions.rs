@@ -1,4 +1,4 @@
-//! `/recognitions`: which action an observation shows, or none.
+//! `/recognitions`: finds the action that an observation shows, if any.
 
 use super::extract::{AsCaller, Json};
 use super::problem::Problem;

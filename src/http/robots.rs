@@ -1,4 +1,4 @@
-//! `/robots`: a URDF and the part of it that moves; every version is immutable.
+//! `/robots`: URDFs with their moving chains; every version is immutable.
 
 use super::answer::{PageParameters, created};
 use super::extract::{AsCaller, Json, Path, Query};
@@ -8,7 +8,7 @@ use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse as _, Response};
 
-/// Checks and keeps a robot; a taken name makes a new version of it.
+/// Checks and stores a robot; an existing name makes a new version.
 #[utoipa::path(post, path = "/robots", operation_id = "createRobot", tag = "robots", request_body = CreateRobot,
     responses((status = 201, description = "The robot.", body = RobotView)))]
 pub async fn create(AsCaller(app): AsCaller, Json(request): Json<CreateRobot>) -> Result<Response, Problem> {
@@ -33,7 +33,7 @@ pub async fn get(AsCaller(app): AsCaller, Path(id): Path<RobotId>) -> Result<Jso
     Ok(Json(app.get_robot(&id).await?))
 }
 
-/// The URDF of a robot, as it was given.
+/// The URDF of a robot, exactly as it was sent.
 #[utoipa::path(get, path = "/robots/{id}/urdf", operation_id = "getRobotUrdf", tag = "robots",
     params(("id" = RobotId, Path)),
     responses((status = 200, description = "The URDF.", body = String, content_type = "text/xml")))]
@@ -42,7 +42,7 @@ pub async fn urdf(AsCaller(app): AsCaller, Path(id): Path<RobotId>) -> Result<Re
     Ok(([(CONTENT_TYPE, "text/xml; charset=utf-8")], urdf).into_response())
 }
 
-/// Deletes a robot that no job names.
+/// Deletes a robot that no job uses.
 #[utoipa::path(delete, path = "/robots/{id}", operation_id = "deleteRobot", tag = "robots",
     params(("id" = RobotId, Path)),
     responses((status = 204, description = "Deleted."), (status = 409, description = "A job uses it.")))]

@@ -1,8 +1,8 @@
 //! `/jobs/{id}:pause`: custom methods as in the Google AIPs.
 //!
 //! The router matches whole segments only, so `…/SEGMENT:verb` is rewritten to `…/SEGMENT/@verb` before routing and
-//! registered in that form; documentation and clients only see the colon. A path that itself contains `/@` is not
-//! found.
+//! registered in that form; documentation and clients only see the colon. A request whose own path contains `/@`
+//! answers 404.
 
 use axum::extract::Request;
 use axum::http::Uri;

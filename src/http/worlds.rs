@@ -1,4 +1,4 @@
-//! `/worlds`: where effects happen.
+//! `/worlds`: simulations of the effects.
 
 use super::answer::{PageParameters, created};
 use super::extract::{AsCaller, Json, Path, Query};
@@ -7,7 +7,7 @@ use crate::app::model::{CreateWorld, Page, WorldId, WorldView};
 use axum::http::StatusCode;
 use axum::response::Response;
 
-/// Checks and keeps a world.
+/// Checks and stores a world.
 #[utoipa::path(post, path = "/worlds", operation_id = "createWorld", tag = "worlds", request_body = CreateWorld,
     responses((status = 201, description = "The world.", body = WorldView)))]
 pub async fn create(AsCaller(app): AsCaller, Json(request): Json<CreateWorld>) -> Result<Response, Problem> {
@@ -32,7 +32,7 @@ pub async fn get(AsCaller(app): AsCaller, Path(id): Path<WorldId>) -> Result<Jso
     Ok(Json(app.get_world(&id).await?))
 }
 
-/// Deletes a world that no job names.
+/// Deletes a world that no job uses.
 #[utoipa::path(delete, path = "/worlds/{id}", operation_id = "deleteWorld", tag = "worlds",
     params(("id" = WorldId, Path)),
     responses((status = 204, description = "Deleted."), (status = 409, description = "A job uses it.")))]

@@ -1,4 +1,4 @@
-//! Bounds of requests in the document, from the constants that the use-cases check.
+//! Bounds of requests in the document, from the constants against which the use cases check.
 
 use super::schemas::Schemas;
 use crate::app::model::limits;
@@ -33,7 +33,7 @@ fn properties() -> Vec<Row> {
     ]
 }
 
-/// The operations' bounded parameters; the empty operation stands for all that have the parameter.
+/// The bounded parameters by operation; an empty operation stands for every operation with that parameter.
 fn parameters() -> Vec<Row> {
     vec![
         ("", "page_size", with_default(numbers(&limits::PAGE_SIZE), limits::DEFAULT_PAGE_SIZE)),
@@ -74,7 +74,7 @@ fn range_keywords(range: &Range) -> Value {
     limits.into_iter().filter_map(|(keyword, limit)| Some((keyword.to_owned(), json!(limit?)))).collect()
 }
 
-/// Adds the bounds to the components, before their properties become parts of others.
+/// Adds the bounds to the components; must run before unions copy their properties.
 pub fn add_to_schemas(schemas: &mut Schemas) {
     for method in catalogue() {
         add_ranges(schemas, method.schema, &method.parameters);

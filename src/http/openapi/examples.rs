@@ -61,22 +61,22 @@ fn resources() -> Vec<Example> {
         Example::new(
             "createRobot",
             "chain",
-            "A URDF, one joint of it free",
+            "A URDF with one free joint",
             json!({"name": "arm", "urdf": URDF, "spec": {"free_joints": ["turn"], "acceleration": {"turn": 2}}}),
         ),
         Example::new(
             "createWorld",
             "tool_position",
-            "The tool's position is observed",
+            "A world that observes the tool's position",
             json!({"name": "table", "spec": {"kind": "tool_position", "unit": "mm"}}),
         ),
         Example::new(
             "createWorld",
             "coverage",
-            "A wall of 4 x 4 cells is painted",
+            "A wall of 4 x 4 cells to be painted",
             json!({"name": "wall", "spec": grid}),
         ),
-        Example::new("recognize", "rows", "Rows as they were observed", json!({"observed": rows})),
+        Example::new("recognize", "rows", "Observed rows", json!({"observed": rows})),
         Example::new(
             "recognize",
             "demonstration",
@@ -111,7 +111,7 @@ fn jobs() -> Vec<Example> {
             Example::new(
                 operation,
                 "generalization",
-                "Demonstrations become an action",
+                "Generalize demonstrations into an action",
                 of_kind("generalization", &generalization),
             ),
             Example::new(

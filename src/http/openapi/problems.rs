@@ -1,7 +1,7 @@
-//! The problems each operation can answer with, by status.
+//! The problems with which each operation can answer, by status.
 //!
-//! Most follow from what an operation has: whoever takes a body can refuse it, whoever takes an id can miss it. What
-//! only one use-case answers (409 above all) is written beside its handler, which gives the status and the reason.
+//! Most follow from the operation's parameters: one with a body can reject the body, one with an id may not find it.
+//! Statuses with a reason of their own (mostly 409) are written beside the handler.
 
 use super::super::error::of_status;
 use super::super::problem::{CONTENT_TYPE_PROBLEM, Problem};
@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 /// The request id of the examples.
 const REQUEST_ID: &str = "7f1c9a3e5b2d4860a1c3e5f708192a3b";
 
-/// Operations that send a body and write nothing.
+/// Operations that take a body and write nothing.
 const READING: [&str; 2] = ["recognize", "validateJob"];
 
-/// A problem that many operations have in common: its name among the components, when it is answered, an example.
+/// A problem that many operations have in common: name of its component, description, example.
 struct Common {
     name: &'static str,
     description: &'static str,
@@ -59,24 +59,28 @@ fn common() -> [Common; 12] {
             "There is no such resource.",
             AppError::not_found("job", "job_0193c5a1f2b87c3d9e4f5a6b7c8d9e0f"),
         ),
-        Common::new("RequestTimeout", "The answer took longer than the limit.", of_status(StatusCode::REQUEST_TIMEOUT)),
+        Common::new(
+            "RequestTimeout",
+            "The response took longer than the limit.",
+            of_status(StatusCode::REQUEST_TIMEOUT),
+        ),
         Common::new(
             "Precondition",
-            "`If-Match` does not name the present revision: read the resource again.",
+            "`If-Match` does not name the current revision: read the resource again.",
             error(ErrorKind::Precondition, "revision_mismatch", revision),
         ),
         Common::new("TooLarge", "The body is larger than the limit.", of_status(StatusCode::PAYLOAD_TOO_LARGE)),
         Common::new(
             "UnsupportedMediaType",
-            "The body's content type or encoding is not read here.",
+            "This operation does not read the body's content type or encoding.",
             of_status(StatusCode::UNSUPPORTED_MEDIA_TYPE),
         ),
         Common::new(
             "Invalid",
-            "The request can be read and is wrong; `errors` says where.",
+            "The request is well-formed but invalid; `errors` lists the places.",
             AppError::invalid(vec![repetitions]),
         ),
-        Common::new("Internal", "The service is at fault; its log has the cause.", AppError::internal("database")),
+        Common::new("Internal", "The service failed; its log has the cause.", AppError::internal("database")),
         Common::new(
             "Unavailable",
             "The service cannot answer now: retry after `Retry-After` seconds.",
@@ -84,7 +88,7 @@ fn common() -> [Common; 12] {
         ),
         Common::new(
             "StorageFull",
-            "The disk is full: nothing was written, reading goes on.",
+            "The disk is full: nothing was written; reading still works.",
             error(ErrorKind::StorageFull, "storage_full", disk),
         ),
     ]
@@ -115,7 +119,7 @@ pub fn add(document: &mut Value) {
     document["components"]["responses"] = responses.chain([("Problem".to_owned(), any)]).collect();
 }
 
-/// The common problems of an operation, judged by what it takes and does.
+/// The common problems of an operation, derived from its method, parameters and body.
 fn names(path: &str, method: &str, operation: &Value) -> Vec<&'static str> {
     let mut names = vec![];
     if !path.starts_with(super::super::API) {

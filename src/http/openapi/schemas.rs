@@ -1,4 +1,4 @@
-//! The components of the document: their names, and which of them are used.
+//! The components of the document: gives them their names and removes unused ones.
 
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -8,12 +8,12 @@ pub type Schemas = Map<String, Value>;
 
 const PREFIX: &str = "#/components/schemas/";
 
-/// The place of a component.
+/// Reference to a component, as text.
 pub fn target(name: &str) -> String {
     format!("{PREFIX}{name}")
 }
 
-/// A schema that is the component of that name.
+/// Schema that refers to the component of that name.
 pub fn reference(name: &str) -> Value {
     json!({"$ref": target(name)})
 }
@@ -46,7 +46,7 @@ pub fn rename_pages(document: &mut Value) {
     });
 }
 
-/// Removes the components that no operation leads to.
+/// Removes the components that no operation uses, directly or through others.
 pub fn remove_unused(document: &mut Value) {
     let mut schemas = std::mem::take(&mut document["components"]["schemas"]);
     let mut used = BTreeSet::new();

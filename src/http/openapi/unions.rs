@@ -5,8 +5,8 @@
 //! example `CreateJobExecution`, with its tag as a constant.
 //!
 //! # Invariants
-//! - A variant is named after its union and its tag, in that order; without a tag, after what it holds.
-//! - An object that refuses unknown properties still does after its tag was added.
+//! - A variant is named after its union and its tag, in that order; without a tag, after its content.
+//! - An object that rejects unknown properties still rejects them after its tag was added.
 //! - `null` is the only variant without a name.
 
 use super::schemas::{Schemas, pascal_case, reference, target};
@@ -42,7 +42,7 @@ fn distributed(schema: Value, schemas: &Schemas) -> Value {
     described(json!({"oneOf": variants.collect::<Vec<_>>()}), &schema)
 }
 
-/// The union with references only; what they refer to is added to `schemas`.
+/// The union with references only; their targets are added to `schemas`.
 fn named(name: &str, union: &Value, variants: &[Value], schemas: &mut Schemas) -> Value {
     let parts: Vec<Value> = variants.iter().map(|variant| described(flat(variant, schemas), variant)).collect();
     let tag = tag(&parts);
@@ -89,7 +89,7 @@ fn flat(schema: &Value, schemas: &Schemas) -> Value {
     whole
 }
 
-/// The property that all parts have with one allowed value each.
+/// Name of the tag: the property with one allowed value in every part.
 fn tag(parts: &[Value]) -> Option<String> {
     let has = |part: &Value, property: &String| constant(&part["properties"][property]).is_some();
     let first = parts.first()?.get("properties")?.as_object()?;
@@ -104,7 +104,7 @@ fn constant(schema: &Value) -> Option<String> {
     only.as_str().map(str::to_owned)
 }
 
-/// What an untagged variant is named after: its one allowed value, its one required property, else its type.
+/// Second part of an untagged variant's name: its one allowed value, its one required property, or else its type.
 fn content(part: &Value) -> &str {
     let value = part["enum"].as_array().and_then(|values| values.first());
     let property = part["required"].as_array().and_then(|required| required.first());
