@@ -48,7 +48,7 @@ pub fn run_command(arguments: &ExperimentArguments) -> anyhow::Result<()> {
     let lost = finish(&mut experiment, arguments.threads)?;
     report(&lost, &experiment)?;
     if let Some(path) = &arguments.figure {
-        std::fs::write(path, figure(&experiment)?).with_context(|| format!("{} cannot be written", path.display()))?;
+        std::fs::write(path, figure(&experiment)?).with_context(|| format!("cannot write {}", path.display()))?;
     }
     let mut table = experiment.table();
     count(&lost, &mut table);

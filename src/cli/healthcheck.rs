@@ -1,5 +1,6 @@
 //! `cgda healthcheck`: asks a server whether it is ready and reports through the exit code.
 
+use super::values::address;
 use anyhow::{Context as _, bail};
 use axum::body::Body;
 use axum::http::header::HOST;
@@ -14,7 +15,7 @@ use tokio::net::TcpStream;
 #[command(allow_negative_numbers = true)]
 pub struct HealthcheckArguments {
     /// Address of the server.
-    #[arg(long, default_value = "127.0.0.1:8080", value_name = "ADDRESS")]
+    #[arg(long, default_value = "127.0.0.1:8080", value_name = "ADDRESS", value_parser = address)]
     address: SocketAddr,
     /// Maximum time to wait, seconds.
     #[arg(long, default_value_t = 3.0, value_name = "SECONDS")]

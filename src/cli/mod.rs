@@ -40,7 +40,7 @@ enum Command {
     Openapi,
 }
 
-/// Runs the command and prints a failure, with its causes, as one line on stderr.
+/// Runs the command and prints a failure, with its causes, on stderr.
 #[must_use]
 pub fn main(arguments: &Arguments) -> ExitCode {
     let result = match &arguments.command {
@@ -56,7 +56,7 @@ pub fn main(arguments: &Arguments) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", chain_text(error.as_ref()));
+            eprintln!("error: {}", chain_text(error.as_ref()).trim_end());
             if error.is::<GateClosed>() { ExitCode::from(EXIT_GATE) } else { ExitCode::FAILURE }
         }
     }

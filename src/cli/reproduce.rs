@@ -53,10 +53,10 @@ pub fn run_command(arguments: &ReproduceArguments) -> anyhow::Result<()> {
 }
 
 fn write_figures(folder: &Path, experiment: &Experiment, cells: &[PaperCell]) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", folder.display()))?;
+    std::fs::create_dir_all(folder).with_context(|| format!("cannot create {}", folder.display()))?;
     for (number, svg) in figures::figures(experiment, cells)? {
         let path = folder.join(format!("figure-{number:02}.svg"));
-        std::fs::write(&path, svg).with_context(|| format!("{} cannot be written", path.display()))?;
+        std::fs::write(&path, svg).with_context(|| format!("cannot write {}", path.display()))?;
         eprintln!("{}", path.display());
     }
     Ok(())

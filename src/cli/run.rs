@@ -20,9 +20,12 @@ use std::path::PathBuf;
 /// Number of evaluations between updates of the progress bar.
 const SLICE: u64 = 2_000;
 
+const USAGE: &str = "cgda run --preset <NAME> [OPTIONS]\n       \
+                     cgda run --robot <URDF> --world <FILE> [OPTIONS] <FILES>...";
+
 /// Find the joint trajectory that produces the demonstrated effects.
 #[derive(Debug, clap::Args)]
-#[command(allow_negative_numbers = true)]
+#[command(allow_negative_numbers = true, override_usage = USAGE)]
 pub struct RunArguments {
     #[command(flatten)]
     problem: problem::ProblemArguments,

@@ -2,6 +2,7 @@
 
 mod demo;
 
+use super::values::address;
 use crate::app::ports::LocalEvents;
 use crate::app::{Access, App, Caller, Ports};
 use crate::config::{Config, Flags, LogFormat, ServerConfig};
@@ -35,7 +36,7 @@ pub struct ServeArguments {
     #[arg(long, value_name = "DIR")]
     data_dir: Option<PathBuf>,
     /// Address of HTTP and gRPC; port 0 picks a free port [default: 127.0.0.1:8080]
-    #[arg(long, value_name = "ADDRESS")]
+    #[arg(long, value_name = "ADDRESS", value_parser = address)]
     listen: Option<SocketAddr>,
     /// Access token of clients; if absent, generated at the first start and stored in the data directory.
     #[arg(long, env = "CGDA_TOKEN", hide_env_values = true, value_name = "TOKEN")]

@@ -1,6 +1,17 @@
-//! Enums of the core as command-line values: the same variants, with the help that `--help` prints.
+//! Command-line values: addresses, and enums of the core with the help that `--help` prints.
 //!
-//! The core knows no command line, so each is mirrored here; a variant missing on either side does not compile.
+//! The core knows no command line, so each enum is mirrored here; a variant missing on either side does not compile.
+
+use std::net::SocketAddr;
+
+/// Reads an address.
+///
+/// # Errors
+/// The form that an address has.
+pub fn address(argument: &str) -> Result<SocketAddr, String> {
+    let help = "give a numeric address with a port, for example 127.0.0.1:8080 or [::1]:8080";
+    argument.parse().map_err(|_| help.to_owned())
+}
 
 /// `NAME of MODULE`: mirrors `crate::framework::MODULE::NAME`, variant by variant.
 macro_rules! value_enum {

@@ -141,7 +141,7 @@ pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> St
 
 /// Plans each run's trajectory from the robot's home pose and writes it in three formats.
 pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[RunResult]) -> anyhow::Result<()> {
-    std::fs::create_dir_all(directory).with_context(|| format!("cannot make {}", directory.display()))?;
+    std::fs::create_dir_all(directory).with_context(|| format!("cannot create {}", directory.display()))?;
     let chain = Chain::new(&RobotModel::from_urdf(&named.problem.urdf)?, &named.problem.robot)?;
     let mut refused = 0;
     for run in runs {

@@ -125,9 +125,12 @@ fn read_preset(name: &str) -> anyhow::Result<Preset> {
         return Ok(shipped::preset(name)?);
     }
     let folder = path.parent().unwrap_or(Path::new("."));
-    let stem = path.file_stem().map_or_else(|| name.to_owned(), |s| s.to_string_lossy().into_owned());
     let resolve = |file: &str| std::fs::read_to_string(folder.join(file)).map_err(|e| e.to_string());
-    Ok(preset::parse(&stem, &read_text(path)?, resolve)?)
+    let mut read = preset::parse(name, &read_text(path)?, resolve)?;
+    if let Some(stem) = path.file_stem() {
+        read.name = stem.to_string_lossy().into_owned();
+    }
+    Ok(read)
 }
 
 fn from_demonstrations(arguments: &ProblemArguments) -> anyhow::Result<Preset> {
