@@ -47,7 +47,7 @@ export function MethodCard({ form, world, methods, change }: Props) {
         />
       )}
       {method?.learns_from_earlier_runs === true && (
-        <div className="fields">
+        <div className="fields" style={{ marginTop: 12 }}>
           <SelectField
             label="Earlier runs on this robot"
             hint="Trials with the same tool, world and features are as good as new ones."
