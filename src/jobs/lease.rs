@@ -1,8 +1,8 @@
 //! A claimed job and its lease; every write of a worker goes through its claim.
 //!
 //! # Invariants
-//! - A claim that may no longer hold stops the work. If renewals keep failing for half the lease, the worker gives the
-//!   job up, before another worker can claim it.
+//! - A claim that may no longer hold stops the work. If renewals keep failing, or stay without an answer, for half the
+//!   lease, the worker gives the job up, before another worker can claim it.
 //! - [`ClaimedJob::settle`] is the only answer to pause, cancel and shutdown. Whatever happens between reading a state
 //!   and acting on it, either the job ends up in a state that no worker holds, or the work continues.
 
@@ -245,20 +245,36 @@ impl Renewals {
     async fn run(mut self) {
         loop {
             tokio::time::sleep(self.settings.heartbeat).await;
-            match self.ports.store.heartbeat(&self.claim, self.settings.lease).await {
-                Ok(state) => {
-                    self.renewed = self.ports.clock.elapsed();
+            let asked = self.ports.clock.elapsed();
+            let renewal = self.ports.store.heartbeat(&self.claim, self.settings.lease);
+            match tokio::time::timeout(self.patience(), renewal).await {
+                Ok(Ok(state)) => {
+                    self.renewed = asked;
                     self.state.send_replace(state);
                 }
-                Err(StoreError::LeaseLost { .. }) => return self.lost.cancel(),
-                Err(error) => {
+                Ok(Err(StoreError::LeaseLost { .. })) => return self.lost.cancel(),
+                Ok(Err(error)) => {
                     tracing::warn!(job.id = %self.claim.job, error = %error, "a heartbeat failed");
-                    if self.ports.clock.elapsed().saturating_sub(self.renewed) > self.settings.lease / 2 {
+                    if self.since_renewal() > self.settings.lease / 2 {
                         return self.lost.cancel();
                     }
                 }
+                Err(_) => {
+                    tracing::warn!(job.id = %self.claim.job, "a heartbeat got no answer");
+                    return self.lost.cancel();
+                }
             }
         }
+    }
+
+    fn since_renewal(&self) -> Duration {
+        self.ports.clock.elapsed().saturating_sub(self.renewed)
+    }
+
+    /// Longest wait for the answer to the next renewal: the rest of half the lease. If little or nothing of it is left,
+    /// a sixth of the lease: heartbeats are at most a third of the lease apart, so that this, too, ends with the lease.
+    fn patience(&self) -> Duration {
+        (self.settings.lease / 2).saturating_sub(self.since_renewal()).max(self.settings.lease / 6)
     }
 }
 

@@ -15,10 +15,10 @@ pub use events::{Events, LocalEvents, Wake};
 pub use ids::Ids;
 #[cfg(test)]
 pub use ids::TestIds;
-#[cfg(test)]
-pub use store::MemoryStore;
 pub use store::{
     Actions, Advance, Claim, Claimed, Demonstrations, Experiments, IdempotencyKey, Jobs, KeptTrials, NewDemonstration,
     NewExperiment, NewJob, NewRobot, NewRun, Product, Queue, Robots, Runs, Store, StoreError, Submitted, Transition,
     Usage, Worlds,
 };
+#[cfg(test)]
+pub use store::{Connection, MemoryStore};

@@ -1,9 +1,10 @@
 //! Requests, lost leases and unreachable stores, as a worker meets them.
 
-use super::{Held, ask, claim, settings};
+use super::{Held, ask, claim, claim_with, settings};
 use crate::app::bench::{Bench, generalization};
-use crate::app::ports::{Advance, Jobs as _, Queue as _};
+use crate::app::ports::{Advance, Connection, Jobs as _, Queue as _};
 use crate::framework::job::{Event, State};
+use crate::jobs::Settings;
 use crate::jobs::lease::{LeaseLost, Stop};
 use rstest::rstest;
 use std::time::Duration;
@@ -126,7 +127,7 @@ async fn a_job_that_was_taken_back_is_written_no_more() {
 
 /// Not quite half the lease: heartbeats may fail this long.
 fn tolerated() -> Duration {
-    settings().lease / 2 - Duration::from_mins(5)
+    settings().lease * 2 / 5
 }
 
 /// Waits until two more heartbeats have failed: the second began after this call.
@@ -140,14 +141,14 @@ async fn two_failures(bench: &Bench) {
 async fn a_job_is_given_up_after_half_a_lease_without_renewal_before_another_worker_can_have_it() {
     let bench = Bench::new();
     let Held { claimed, job, .. } = started(&bench).await;
-    bench.store.set_reachable(false);
+    bench.store.set_connection(Connection::Refused);
     bench.clock.advance(tolerated());
     two_failures(&bench).await;
     assert!(!claimed.is_interrupted());
 
     bench.clock.advance(Duration::from_mins(10));
     claimed.interrupt().raised().await;
-    bench.store.set_reachable(true);
+    bench.store.set_connection(Connection::Open);
     assert!(matches!(claimed.advance(Advance::default()).await, Err(LeaseLost::Expired)));
     let now = bench.ports.clock.now();
     assert_eq!(bench.store.reap(now).await.unwrap(), [], "the lease had not ended");
@@ -158,14 +159,26 @@ async fn a_job_is_given_up_after_half_a_lease_without_renewal_before_another_wor
 }
 
 #[tokio::test]
+async fn a_job_whose_heartbeat_gets_no_answer_is_given_up_like_one_whose_heartbeats_fail() {
+    let bench = Bench::new();
+    bench.app.create_action(generalization(vec![bench.demonstration().await]), None).await.unwrap();
+    bench.store.set_connection(Connection::Hanging);
+    let Held { claimed, .. } = claim_with(&bench, Settings { lease: Duration::from_millis(100), ..settings() }).await;
+    claimed.interrupt().raised().await;
+    bench.store.set_connection(Connection::Open);
+    assert!(matches!(claimed.advance(Advance::default()).await, Err(LeaseLost::Expired)));
+    assert_eq!(bench.store.reap(bench.ports.clock.now()).await.unwrap(), [], "the lease had not ended");
+}
+
+#[tokio::test]
 async fn a_renewal_makes_up_for_the_failed_ones_before_it() {
     let bench = Bench::new();
     let Held { claimed, job, .. } = started(&bench).await;
     for _ in 0..3 {
-        bench.store.set_reachable(false);
+        bench.store.set_connection(Connection::Refused);
         bench.clock.advance(tolerated());
         two_failures(&bench).await;
-        bench.store.set_reachable(true);
+        bench.store.set_connection(Connection::Open);
         // The request arrives by a heartbeat, which is a renewal.
         ask(&bench, &job.id, Event::Pause).await;
         claimed.interrupt().raised().await;

@@ -38,7 +38,12 @@ struct Held {
 
 /// Claims the oldest queued job.
 async fn claim(bench: &Bench) -> Held {
-    let (ports, settings, stop) = (&bench.ports, settings(), CancellationToken::new());
+    claim_with(bench, settings()).await
+}
+
+/// Like [`claim`], with other settings.
+async fn claim_with(bench: &Bench, settings: Settings) -> Held {
+    let (ports, stop) = (&bench.ports, CancellationToken::new());
     let claimed = ports.store.claim(ports.ids.token(), settings.lease, 3, ports.clock.now()).await.unwrap();
     let Claimed { claim, job, work, .. } = claimed.unwrap();
     let claimed = ClaimedJob::new(ports.clone(), settings, claim, stop.clone());

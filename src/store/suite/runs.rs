@@ -29,7 +29,7 @@ pub(crate) async fn ends_a_job_once_with_its_results(store: &dyn Store) {
     let id = submitted(store, 1).await;
     let claim = claimed(store).await.unwrap().claim;
     store.advance(&claim, transition(Event::Start), AT).await.unwrap();
-    let mut runs = vec![run(5, &id, 0), run(4, &id, 1)];
+    let mut runs = [run(5, &id, 0), run(4, &id, 1)];
     let trial = Trial { joints: vec![0.1 + 0.2], observation: None, cells: None, goal: 2 };
     runs[0].trials = KeptTrials { setting: Some("arm".to_owned()), trials: vec![trial] };
     let step = Advance { products: runs.iter().cloned().map(made).collect(), ..transition(Event::Succeed) };

@@ -25,7 +25,7 @@ pub use error::StoreError;
 pub use experiments::{Experiments, NewExperiment};
 pub use jobs::{IdempotencyKey, Jobs, NewJob, Submitted, Usage};
 #[cfg(test)]
-pub use memory::MemoryStore;
+pub use memory::{Connection, MemoryStore};
 pub use queue::{Advance, Claim, Claimed, Product, Queue, Transition};
 pub use robots::{NewRobot, Robots};
 pub use runs::{KeptTrials, NewRun, Runs};

@@ -16,7 +16,6 @@ use crate::app::ports::Clock;
 use crate::framework::experiment::RunRow;
 use async_trait::async_trait;
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use tokio::sync::watch;
@@ -25,9 +24,21 @@ use tokio::sync::watch;
 pub struct MemoryStore {
     clock: Arc<dyn Clock>,
     data: Mutex<Data>,
-    is_reachable: AtomicBool,
+    connection: watch::Sender<Connection>,
     /// Number of writes refused for lack of a connection.
     refused: watch::Sender<u64>,
+}
+
+/// Answers to writes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Connection {
+    /// They are done.
+    #[default]
+    Open,
+    /// They are refused with [`StoreError::Unavailable`].
+    Refused,
+    /// Heartbeats get no answer; other writes are done.
+    Hanging,
 }
 
 #[derive(Clone, Default)]
@@ -78,12 +89,12 @@ impl MemoryStore {
     /// An empty store whose leases end by `clock`.
     #[must_use]
     pub fn new(clock: Arc<dyn Clock>) -> Self {
-        Self { clock, data: Mutex::default(), is_reachable: AtomicBool::new(true), refused: watch::Sender::default() }
+        Self { clock, data: Mutex::default(), connection: watch::Sender::default(), refused: watch::Sender::default() }
     }
 
-    /// Lets the store accept writes, or refuse them with [`StoreError::Unavailable`].
-    pub fn set_reachable(&self, is_reachable: bool) {
-        self.is_reachable.store(is_reachable, Ordering::Release);
+    /// Changes how the store answers from now on.
+    pub fn set_connection(&self, connection: Connection) {
+        self.connection.send_replace(connection);
     }
 
     /// Number of writes refused so far.
@@ -97,7 +108,7 @@ impl MemoryStore {
     }
 
     fn write<T>(&self, write: impl FnOnce(&mut Data) -> Result<T, StoreError>) -> Result<T, StoreError> {
-        if !self.is_reachable.load(Ordering::Acquire) {
+        if *self.connection.borrow() == Connection::Refused {
             self.refused.send_modify(|count| *count += 1);
             return Err(StoreError::Unavailable);
         }

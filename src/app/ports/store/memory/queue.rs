@@ -1,6 +1,6 @@
 //! Jobs as workers hold them.
 
-use super::{Data, Job, Lease, MemoryStore, found, taken};
+use super::{Connection, Data, Job, Lease, MemoryStore, found, taken};
 use crate::app::model::{ActionGoals, ActionView, JobId, Timestamp};
 use crate::app::ports::rules::{Loss, is_progress, quarantine, take_back};
 use crate::app::ports::store::{Advance, Claim, Claimed, NewRun, Product, Queue, StoreError, Transition};
@@ -123,6 +123,11 @@ impl Queue for MemoryStore {
     }
 
     async fn heartbeat(&self, claim: &Claim, lease: Duration) -> Result<State, StoreError> {
+        let mut connection = self.connection.subscribe();
+        connection
+            .wait_for(|connection| *connection != Connection::Hanging)
+            .await
+            .map_err(|_| StoreError::Unavailable)?;
         let until = self.clock.elapsed() + lease;
         self.write(|data| {
             let job = data.held(claim)?;
