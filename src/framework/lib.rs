@@ -20,16 +20,16 @@ pub mod generalization;
 pub mod infinite_as_null;
 pub mod job;
 pub mod method;
-mod name;
 pub mod preset;
 pub mod random;
 pub mod range;
 pub mod recognition;
 pub mod robot;
 pub mod tagged;
+mod text;
 pub mod trajectory;
 pub mod world;
 
 pub use cells::CellSet;
 pub use feature::Feature;
-pub use name::{MAX_DISPLAY_NAME_CHARS, is_display_name, is_hidden};
+pub use text::{MAX_DISPLAY_NAME_CHARS, is_display_name, is_hidden};

@@ -32,7 +32,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("framework/cells", &[]),
     ("framework/distance", &[]),
     ("framework/feature", &[]),
-    ("framework/name", &[]),
+    ("framework/text", &[]),
     ("framework/random", &[]),
     ("framework/range", &[]),
     ("framework/job", &[]),

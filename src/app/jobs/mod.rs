@@ -89,7 +89,7 @@ impl UseCases {
     /// # Errors
     /// `NotFound`; `Conflict` if its state does not allow it.
     pub async fn pause_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        self.ask(id, Event::Pause).await
+        self.apply_event(id, Event::Pause).await
     }
 
     /// Resumes a paused job.
@@ -97,7 +97,7 @@ impl UseCases {
     /// # Errors
     /// `NotFound`; `Conflict` if its state does not allow it.
     pub async fn resume_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        self.ask(id, Event::Resume).await
+        self.apply_event(id, Event::Resume).await
     }
 
     /// Asks a job to end without a result; finished runs are kept.
@@ -105,10 +105,10 @@ impl UseCases {
     /// # Errors
     /// `NotFound`; `Conflict` if it has ended already.
     pub async fn cancel_job(&self, id: &JobId) -> Result<JobView, AppError> {
-        self.ask(id, Event::Cancel).await
+        self.apply_event(id, Event::Cancel).await
     }
 
-    async fn ask(&self, id: &JobId, event: Event) -> Result<JobView, AppError> {
+    async fn apply_event(&self, id: &JobId, event: Event) -> Result<JobView, AppError> {
         let job = self.ports.store.apply_event(id, Transition::plain(event), self.now()).await?;
         self.ports.events.publish(Wake::Job(id.clone()));
         if job.state == State::Queued {

@@ -102,7 +102,7 @@ impl UseCases {
                 }
             };
             let kept = self.ports.store.run_trials(&earlier.run).await?;
-            if kept.setting.is_some() && kept.setting.as_deref() == setup_key {
+            if kept.setup_key.is_some() && kept.setup_key.as_deref() == setup_key {
                 found.push((run, kept.trials));
                 continue;
             }

@@ -31,7 +31,7 @@ pub(super) fn finished_run(
     marks: Marks,
 ) -> Result<NewRun, ProblemError> {
     let chain = iet.chain().clone();
-    let trials = KeptTrials { setting: work.setup_key.clone(), trials: iet.log().to_vec() };
+    let trials = KeptTrials { setup_key: work.setup_key.clone(), trials: iet.log().to_vec() };
     let result = iet.finish()?;
     let id = RunId::from_uuid(marks.run);
     let (trajectory, trajectory_problem) = match plan_through(&chain, &result.waypoints()) {

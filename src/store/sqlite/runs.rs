@@ -44,9 +44,9 @@ impl Runs for SqliteStore {
         trials::of_run(&self.readers, id).await
     }
 
-    async fn runs_on(&self, setting: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError> {
+    async fn runs_on(&self, setup_key: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError> {
         let rows: Vec<(String, String)> =
-            sqlx::query_as(ON_SETTING).bind(setting).bind(limit).fetch_all(&self.readers).await?;
+            sqlx::query_as(ON_SETTING).bind(setup_key).bind(limit).fetch_all(&self.readers).await?;
         let read = |(run, trials): &(String, String)| {
             Ok((documents::read::<Run>("a list", run)?, documents::read::<Trials>("a list", trials)?))
         };

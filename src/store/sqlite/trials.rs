@@ -1,4 +1,4 @@
-//! Trials: written with the run that made them, found again by the setting they were made on.
+//! Trials: written with the run that made them, found again by the key of the set-up they were made on.
 
 use super::statements::statements;
 use crate::app::model::RunId;
@@ -13,13 +13,13 @@ statements! {
 
 /// Keeps the trials of a run, if it has any.
 pub(super) async fn insert(connection: &mut SqliteConnection, run: &RunId, kept: KeptTrials) -> Result<(), StoreError> {
-    let KeptTrials { setting, trials } = kept;
+    let KeptTrials { setup_key, trials } = kept;
     if trials.is_empty() {
         return Ok(());
     }
     sqlx::query(INSERT)
         .bind(run.as_str())
-        .bind(setting)
+        .bind(setup_key)
         .bind(documents::write::<Trials>(trials)?)
         .execute(connection)
         .await?;
@@ -29,6 +29,6 @@ pub(super) async fn insert(connection: &mut SqliteConnection, run: &RunId, kept:
 /// The trials of a run; empty if it has none.
 pub(super) async fn of_run(pool: &SqlitePool, run: &RunId) -> Result<KeptTrials, StoreError> {
     let row: Option<(Option<String>, String)> = sqlx::query_as(OF_RUN).bind(run.as_str()).fetch_optional(pool).await?;
-    let Some((setting, trials)) = row else { return Ok(KeptTrials::default()) };
-    Ok(KeptTrials { setting, trials: documents::read::<Trials>(run.as_str(), &trials)? })
+    let Some((setup_key, trials)) = row else { return Ok(KeptTrials::default()) };
+    Ok(KeptTrials { setup_key, trials: documents::read::<Trials>(run.as_str(), &trials)? })
 }

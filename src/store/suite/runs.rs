@@ -31,7 +31,7 @@ pub(crate) async fn ends_a_job_once_with_its_results(store: &dyn Store) {
     store.advance(&claim, transition(Event::Start), AT).await.unwrap();
     let mut runs = [run(5, &id, 0), run(4, &id, 1)];
     let trial = Trial { joints: vec![0.1 + 0.2], observation: None, cells: None, goal: 2 };
-    runs[0].trials = KeptTrials { setting: Some("arm".to_owned()), trials: vec![trial] };
+    runs[0].trials = KeptTrials { setup_key: Some("arm".to_owned()), trials: vec![trial] };
     let step = Advance { products: runs.iter().cloned().map(made).collect(), ..transition(Event::Succeed) };
     assert_eq!(store.advance(&claim, step.clone(), AT).await.unwrap(), State::Succeeded);
     assert!(matches!(store.advance(&claim, step, AT).await, Err(StoreError::LeaseLost { .. })));

@@ -24,7 +24,7 @@ pub struct NewRun {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct KeptTrials {
     /// Digest of everything that determines an observation; `None` if no other run can share the trials.
-    pub setting: Option<String>,
+    pub setup_key: Option<String>,
     /// Trials in the order they were made.
     pub trials: Vec<Trial>,
 }
@@ -40,8 +40,8 @@ pub trait Runs: Send + Sync {
     async fn run_convergence(&self, id: &RunId) -> Result<Vec<ConvergencePoint>, StoreError>;
     /// The trials of a run; empty if it has none or does not exist.
     async fn run_trials(&self, id: &RunId) -> Result<KeptTrials, StoreError>;
-    /// Runs with trials of this setting, newest first, at most `limit`.
-    async fn runs_on(&self, setting: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError>;
+    /// Runs with trials of this set-up, newest first, at most `limit`.
+    async fn runs_on(&self, setup_key: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError>;
     /// Lists runs.
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError>;
     /// Reads one trajectory.

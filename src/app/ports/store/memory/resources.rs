@@ -159,12 +159,12 @@ impl Runs for MemoryStore {
         Ok(self.read(|data| data.runs.get(id).map(trials).unwrap_or_default()))
     }
 
-    async fn runs_on(&self, setting: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError> {
-        let on_setting = |data: &Data| {
-            let kept = data.runs.values().rev().filter(|kept| trials(kept).setting.as_deref() == Some(setting));
+    async fn runs_on(&self, setup_key: &str, limit: u32) -> Result<Vec<(RunView, Vec<Trial>)>, StoreError> {
+        let on_setup = |data: &Data| {
+            let kept = data.runs.values().rev().filter(|kept| trials(kept).setup_key.as_deref() == Some(setup_key));
             kept.take(limit as usize).map(|kept| (kept.view.clone(), kept.trials.trials.clone())).collect()
         };
-        Ok(self.read(on_setting))
+        Ok(self.read(on_setup))
     }
 
     async fn runs(&self, filter: &RunFilter, keyset: &Keyset) -> Result<Vec<RunView>, StoreError> {
