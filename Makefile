@@ -17,7 +17,7 @@ ALL := --locked --workspace
 # Runs a command; all it said is shown if it fails, its last line if it does not.
 quietly = @echo '$(1)'; said=$$($(1) 2>&1) || { printf '%s\n' "$$said" >&2; exit 1; }; tail -n 1 <<<"$$said"
 
-.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-clients check-docs debug-binary fetch test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
+.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-clients check-core check-docs debug-binary fetch test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
 
 help: ## this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 16
@@ -98,8 +98,14 @@ test-e2e: web/dist/index.html debug-binary ## the dashboard in a real browser ag
 test-examples: debug-binary ## the client scripts of examples/ over REST and gRPC
 	tests/examples.sh target/debug/cgda $(TOOLS)/python
 
-torture: setup-test ## the slow suites: repeated kills, long runs
+torture: setup-test check-core ## the slow suites: repeated kills, long runs
 	cargo test $(ALL) --release -- --ignored
+
+# A folder of its own: other features than those of the workspace, so that nothing there is built anew.
+check-core: ## the core as its users build it: with each set of features, and as a package
+	cargo clippy --locked -p cgda-core --all-targets --no-default-features --target-dir target/core --quiet -- -D warnings
+	cargo clippy --locked -p cgda-core --all-targets --all-features --target-dir target/core --quiet -- -D warnings
+	cargo publish --dry-run --locked -p cgda-core --target-dir target/core --quiet
 
 bench: ## ratios of the hot paths
 	cargo bench --locked
