@@ -132,27 +132,20 @@ impl Bench {
             sha256: digest(&planned),
             created_at: TestClock::START,
         });
+        let count = goals.len();
         let view = RunView {
             id: id.clone(),
             job: claimed.job.id.clone(),
-            repetition: 0,
             action: work.action.clone(),
             robot: work.robot.clone(),
             world: work.world.clone(),
-            method: "sst".to_owned(),
-            metric: Metric::default(),
-            seed: 7,
-            evaluations: 10 * goals.len() as u64,
-            discrepancy: 5.0,
-            true_discrepancy: None,
-            valid: true,
-            provenance: Tally { simulated: 10 * goals.len() as u64, ..Tally::default() },
-            painted_percent: None,
-            goals: u32::try_from(goals.len()).unwrap(),
-            digest: "d".to_owned(),
+            evaluations: 10 * count as u64,
+            provenance: Tally { simulated: 10 * count as u64, ..Tally::default() },
+            goals: u32::try_from(count).unwrap(),
             trajectory: trajectory.as_ref().map(|trajectory| trajectory.id.clone()),
             trajectory_problem: trajectory.is_none().then(|| "too steep".to_owned()),
             created_at: TestClock::START,
+            ..RunView::sample()
         };
         let improvement =
             |evaluations| ConvergencePoint { goal_index: 0, evaluations, discrepancy: 1.0 / evaluations as f64 };

@@ -58,6 +58,36 @@ pub struct RunView {
     pub created_at: Timestamp,
 }
 
+#[cfg(test)]
+impl RunView {
+    /// A valid run without a trajectory, for tests.
+    pub(crate) fn sample() -> Self {
+        let id = uuid::Uuid::from_u128(1);
+        Self {
+            id: RunId::from_uuid(id),
+            job: JobId::from_uuid(id),
+            repetition: 0,
+            action: ActionId::from_uuid(id),
+            robot: RobotId::from_uuid(id),
+            world: WorldId::from_uuid(id),
+            method: "sst".to_owned(),
+            metric: Metric::default(),
+            seed: 7,
+            evaluations: 10,
+            discrepancy: 0.1 + 0.2,
+            true_discrepancy: None,
+            valid: true,
+            provenance: Tally { simulated: 9, inherited: 2, ..Tally::default() },
+            painted_percent: None,
+            goals: 0,
+            digest: "d".to_owned(),
+            trajectory: None,
+            trajectory_problem: Some("too steep".to_owned()),
+            created_at: Timestamp(1_700_000_000_000),
+        }
+    }
+}
+
 /// One goal of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct RunGoal {

@@ -140,35 +140,17 @@ impl From<ConvergencePoint> for proto::ConvergencePoint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::model::{ActionId, JobId, RobotId, RunId, Timestamp, WorldId};
     use crate::framework::method::per_goal::{Provenance, StopReason};
     use crate::framework::recognition::Metric;
-    use uuid::Uuid;
 
     #[test]
     fn an_invalid_run_says_so() {
-        let id = Uuid::from_u128(1);
         let view = RunView {
-            id: RunId::from_uuid(id),
-            job: JobId::from_uuid(id),
-            repetition: 2,
-            action: ActionId::from_uuid(id),
-            robot: RobotId::from_uuid(id),
-            world: WorldId::from_uuid(id),
-            method: "fi_pso".to_owned(),
             metric: Metric::SumOfFeatures,
-            seed: 3,
-            evaluations: 4,
-            discrepancy: 5.5,
             true_discrepancy: Some(6.5),
             valid: false,
             provenance: Tally { simulated: 1, rejected: 7, ..Tally::default() },
-            painted_percent: None,
-            goals: 8,
-            digest: "d".to_owned(),
-            trajectory: None,
-            trajectory_problem: Some("why".to_owned()),
-            created_at: Timestamp(0),
+            ..RunView::sample()
         };
         let message = proto::Run::from(view.clone());
         assert!(!message.valid && proto::Run::from(RunView { valid: true, ..view }).valid);

@@ -1,9 +1,9 @@
 //! Resources to try the promises on.
 
 use crate::app::model::{
-    ActionId, CreateJob, DemonstrationId, DemonstrationReport, DemonstrationView, EventData, ExperimentId,
-    ExperimentView, GeneralizationRequest, JobId, JobKind, JobProgress, JobResult, JobView, Keyset, PageQuery, RobotId,
-    RobotView, RunGoals, RunId, RunView, Timestamp, Work, WorldId,
+    CreateJob, DemonstrationId, DemonstrationReport, DemonstrationView, EventData, ExperimentId, ExperimentView,
+    GeneralizationRequest, JobId, JobKind, JobProgress, JobResult, JobView, Keyset, PageQuery, RobotId, RobotView,
+    RunGoals, RunId, RunView, Timestamp, Work,
 };
 use crate::app::ports::{
     Advance, Claimed, KeptTrials, NewDemonstration, NewExperiment, NewJob, NewRobot, NewRun, Product, Store, Submitted,
@@ -114,23 +114,10 @@ pub(super) fn run(number: u128, job: &JobId, repetition: u32) -> NewRun {
         id: id.clone(),
         job: job.clone(),
         repetition,
-        action: ActionId::from_uuid(uuid(1)),
-        robot: RobotId::from_uuid(uuid(1)),
-        world: WorldId::from_uuid(uuid(1)),
-        method: "sst".to_owned(),
-        metric: Metric::default(),
         seed: (1 << 53) - 1,
-        evaluations: 7,
-        discrepancy: 0.1 + 0.2,
-        true_discrepancy: None,
-        valid: true,
-        provenance: Tally { simulated: 6, inherited: 2, ..Tally::default() },
-        painted_percent: None,
-        goals: 0,
         digest: format!("digest {number}"),
-        trajectory: None,
-        trajectory_problem: None,
         created_at: AT,
+        ..RunView::sample()
     };
     let goals = RunGoals { run: id, features: Vec::new(), joint_names: Vec::new(), goals: Vec::new() };
     NewRun { view, goals, convergence: Vec::new(), trajectory: None, trials: KeptTrials::default() }
