@@ -3,6 +3,7 @@
 use super::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use super::time::Timestamp;
 use crate::framework::Feature;
+use crate::framework::execution::JointStep;
 use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
 use crate::framework::method::whole_run::Trial;
 use crate::framework::recognition::Metric;
@@ -46,6 +47,10 @@ pub struct RunView {
     pub painted_percent: Option<f64>,
     /// Number of goals.
     pub goals: u32,
+    /// Largest move of one joint between successive goals, the first from the robot's home pose; 1 rad counts as much
+    /// as 1 m. Absent for runs of earlier versions.
+    #[schema(required = true)]
+    pub largest_step: Option<JointStep>,
     /// SHA-256 of the result's bits, hexadecimal.
     pub digest: String,
     /// Trajectory; absent if none stays within the limits, as `trajectory_problem` explains.
@@ -80,6 +85,7 @@ impl RunView {
             provenance: Tally { simulated: 9, inherited: 2, ..Tally::default() },
             painted_percent: None,
             goals: 0,
+            largest_step: Some(JointStep { joint: "j2".to_owned(), goal_index: 1, size: 0.4 }),
             digest: "d".to_owned(),
             trajectory: None,
             trajectory_problem: Some("too steep".to_owned()),

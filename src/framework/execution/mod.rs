@@ -32,7 +32,7 @@ pub use error::ProblemError;
 pub use estimate::{Preview, ROBOT_TRIAL_S, in_words};
 pub use iet::Iet;
 pub use observations::{Observations, Seen};
-pub use result::{GoalResult, Progress, RunResult, TracePoint};
+pub use result::{GoalResult, JointStep, Progress, RunResult, TracePoint};
 pub use simulate::{run, run_while, simulate, simulated_world};
 pub use spec::{ExecutionSpec, Problem};
 pub use state::IetState;

@@ -3,6 +3,7 @@
 use super::enumeration::Enumeration as _;
 use super::{all, time};
 use crate::app::model::{Convergence, ConvergencePoint, RunGoal, RunGoals, RunTrials, RunView};
+use crate::framework::execution::JointStep;
 use crate::framework::method::per_goal::Tally;
 use crate::framework::method::whole_run::Trial;
 use crate::grpc::proto;
@@ -26,6 +27,7 @@ impl From<RunView> for proto::Run {
             provenance,
             painted_percent,
             goals,
+            largest_step,
             digest,
             trajectory,
             trajectory_problem,
@@ -48,11 +50,19 @@ impl From<RunView> for proto::Run {
             provenance: Some(provenance.into()),
             painted_percent,
             goals,
+            largest_step: largest_step.map(Into::into),
             digest,
             trajectory: trajectory.map(Into::into),
             trajectory_problem,
             created_at: Some(time(created_at)),
         }
+    }
+}
+
+impl From<JointStep> for proto::JointStep {
+    fn from(step: JointStep) -> Self {
+        let JointStep { joint, goal_index, size } = step;
+        Self { joint, goal_index, size }
     }
 }
 
@@ -158,6 +168,8 @@ mod tests {
         let tally = message.provenance.unwrap();
         assert_eq!((tally.simulated, tally.rejected, tally.repaired), (1, 7, 0));
         assert_eq!(message.metric(), proto::Metric::SumOfFeatures);
+        let step = message.largest_step.unwrap();
+        assert_eq!((step.joint.as_str(), step.goal_index, step.size), ("j2", 1, 0.4));
     }
 
     #[test]

@@ -55,6 +55,7 @@ pub(super) fn finished_run(
         provenance: result.tally,
         painted_percent: result.painted_percent,
         goals: u32::try_from(result.goals.len()).unwrap_or(u32::MAX),
+        largest_step: result.largest_step(&chain),
         digest: result.digest.clone(),
         trajectory: trajectory.as_ref().map(|trajectory| trajectory.id.clone()),
         trajectory_problem,

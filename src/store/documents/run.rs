@@ -7,6 +7,7 @@ use crate::app::model::{
     WorldId,
 };
 use crate::framework::Feature;
+use crate::framework::execution::JointStep;
 use crate::framework::infinite_as_null;
 use crate::framework::method::per_goal::{Provenance, StopReason};
 use crate::framework::recognition::Metric;
@@ -32,6 +33,7 @@ document! {
         valid: bool,
         painted_percent: Option<f64>,
         goals: u32,
+        largest_step: Option<JointStep>,
         digest: String,
         trajectory: Option<TrajectoryId>,
         trajectory_problem: Option<String>,
@@ -39,12 +41,18 @@ document! {
     }
     with { provenance: Tally, }
 }
-versions! { Run keeps RunView, "run", [with_constraints] }
+versions! { Run keeps RunView, "run", [with_constraints, with_largest_step] }
 
 /// Version 0 of the builds without constraints: every run was valid, and nothing was counted.
 fn with_constraints(mut run: Value) -> Value {
     complete(&mut run, "valid", true);
     complete_tally(&mut run);
+    run
+}
+
+/// Version 1 of the builds that did not measure steps.
+fn with_largest_step(mut run: Value) -> Value {
+    complete(&mut run, "largest_step", Value::Null);
     run
 }
 
