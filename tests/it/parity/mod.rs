@@ -307,6 +307,8 @@ async fn an_experiment_asked_for_over_grpc_is_the_one_of_http() {
     let experiment = proto::ExperimentSpec {
         paper_table: proto::PaperTable::PaperTable1 as i32,
         seed: Some(7),
+        // Enough to be running still when it is cancelled.
+        repetitions: 1_000,
         ..Default::default()
     };
     let wanted = proto::CreateExperimentRequest { experiment: Some(experiment), idempotency_key: "p".to_owned() };
