@@ -33,12 +33,17 @@ interface Props {
   marks?: number[];
   height?: number;
   legend?: boolean;
+  /** Ticks of x at whole numbers only: x counts something. */
+  counted?: boolean;
   /** A logarithmic y axis; values must be above 0. */
   logarithmic?: boolean;
 }
 
 // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment -- uPlot declares the enum but exports no value
 const LOGARITHMIC = 3 as uPlot.Scale.Distr;
+
+/** Distances between ticks, whole numbers. */
+const WHOLE = Array.from({ length: 10 }, (_, power) => [1, 2, 5].map((digit) => digit * 10 ** power)).flat();
 
 function axis(label: string, size: number): uPlot.Axis {
   const line = { stroke: token("grid"), width: 1 };
@@ -88,7 +93,7 @@ function drawMarks(marks: readonly number[]) {
   };
 }
 
-export function Chart({ summary, x, xLabel, yLabel, series, marks, height = 240, legend = true, logarithmic = false }: Props) {
+export function Chart({ summary, x, xLabel, yLabel, series, marks, height = 240, legend = true, counted = false, logarithmic = false }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const shownMarks = useRef<readonly number[]>([]);
@@ -111,7 +116,7 @@ export function Chart({ summary, x, xLabel, yLabel, series, marks, height = 240,
         legend: { show: legend, live: true },
         cursor: { y: false, drag: { x: false, y: false } },
         scales: { x: { time: false }, y: logarithmic ? { distr: LOGARITHMIC, log: 10 } : {} },
-        axes: [axis(xLabel, 40), axis(yLabel, 58)],
+        axes: [{ ...axis(xLabel, 40), ...(counted ? { incrs: WHOLE } : {}) }, axis(yLabel, 58)],
         series: [{ label: xLabel, value: (_plot, value: number | null) => formatNumber(value) }, ...latest.current.map(line)],
         hooks: { drawClear: [(self: uPlot) => drawMarks(shownMarks.current)(self)] },
       },
@@ -126,11 +131,11 @@ export function Chart({ summary, x, xLabel, yLabel, series, marks, height = 240,
       chart.destroy();
       plot.current = null;
     };
-  }, [shape, xLabel, yLabel, height, legend, logarithmic, dark]);
+  }, [shape, xLabel, yLabel, height, legend, counted, logarithmic, dark]);
 
   useEffect(() => {
     plot.current?.setData([x, ...series.map((each) => each.values)]);
-  }, [x, series, marks, shape, xLabel, yLabel, height, legend, logarithmic, dark]);
+  }, [x, series, marks, shape, xLabel, yLabel, height, legend, counted, logarithmic, dark]);
 
   return <div ref={host} className="chart" role="img" aria-label={summary} style={{ minHeight: height }} />;
 }

@@ -128,6 +128,7 @@ function FeatureCard({ action, column, title, values }: FeatureProps) {
         summary={`Feature ${title} over ${values.length} goals, from ${formatNumber(values[0])} to ${formatNumber(values.at(-1))}`}
         x={x}
         xLabel="goal"
+        counted
         yLabel={title}
         series={[
           { label: "curve", values: columns[0] ?? [], color: "curve", spanGaps: true },

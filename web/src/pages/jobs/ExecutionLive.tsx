@@ -110,7 +110,7 @@ function Summary({ job, progress, goals, trials, state, unit }: SummaryProps) {
           goalsFact({ progress, goals, trials }),
           { name: "Evaluations", value: formatCount(progress.total_evaluations) },
           { name: "Best discrepancy", value: formatQuantity(progress.discrepancy, unit) },
-          { name: "Running for", value: formatDuration(elapsedS) },
+          { name: isFinal(state) ? "Ran for" : "Running for", value: formatDuration(elapsedS) },
           { name: leftS === null ? "Progress" : "Time left (est.)", value: leftS === null ? formatPercent(progress.fraction) : formatDuration(leftS) },
         ]}
       />
@@ -128,6 +128,7 @@ function DiscrepancyChart({ live, unit, boundaries }: { live: LiveJob; unit: str
       summary={`Best discrepancy after ${formatCount(evaluations.at(-1))} evaluations: ${formatNumber(last)} ${unit}`}
       x={evaluations}
       xLabel="evaluations"
+      counted
       yLabel={unit === "" ? "discrepancy" : `discrepancy, ${unit}`}
       series={[{ label: "best discrepancy", values: discrepancy, color: "simulated", stepped: true }]}
       marks={boundaries}
@@ -143,6 +144,7 @@ function CumulativeChart({ cumulative, goals }: { cumulative: number[]; goals: n
       summary={`${formatCount(cumulative.at(-1))} evaluations for ${cumulative.length} of ${goals} goals`}
       x={[0, ...cumulative.map((_, index) => index + 1)]}
       xLabel="goals reached"
+      counted
       yLabel="evaluations"
       series={[{ label: "evaluations", values: [0, ...cumulative], color: "curve" }]}
       legend={false}

@@ -27,6 +27,7 @@ export function TrialsChart({ trials, tolerance, unit }: Props) {
         summary={`${trials.length} trials; the last one, for goal ${last.goal + 1}, ended ${formatNumber(last.residual)} ${unit} from it`}
         x={trials.map((trial) => trial.index + 1)}
         xLabel="trial"
+        counted
         yLabel={unit === "" ? "distance from goal" : `distance from goal, ${unit}`}
         series={[{ label: "trial", values: away, color: "simulated", points: true }, ...within]}
         legend={false}

@@ -113,6 +113,7 @@ function ConvergenceChart({ run, goals }: { run: Run; goals: RunGoals | undefine
           summary={`Best discrepancy over ${formatCount(run.evaluations)} evaluations; final value ${formatNumber(run.discrepancy)} ${unit}`}
           x={points.map((point) => point.evaluations)}
           xLabel="evaluations"
+          counted
           yLabel={unit === "" ? "discrepancy" : `discrepancy, ${unit}`}
           series={[{ label: "best discrepancy", values: points.map((point) => point.discrepancy), color: "simulated", stepped: true }]}
           marks={ends ?? []}
