@@ -14,7 +14,7 @@ export async function pictures({ browser, server, data, screenshots }) {
   await signIn(page, server);
   const job = await startSlowJob(server, data, 700);
   await page.goto(`${server.url}/jobs/${job.id}`);
-  await page.locator(".rung.done").nth(3).waitFor({ timeout: 60_000 });
+  await page.getByRole("listitem", { name: /^Goal 5, searching: \d{3} evaluations, best \d/ }).waitFor({ timeout: 60_000 });
   await page.screenshot({ path: `${FOLDER}dashboard.png` });
   await server.api("POST", `/jobs/${job.id}:cancel`);
 
