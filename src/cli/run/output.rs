@@ -120,12 +120,11 @@ pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> St
         if runs.len() == 1 && name != "mean" {
             continue;
         }
+        let which = if runs.len() == 1 { "1 run".to_owned() } else { format!("{name} over {} runs", runs.len()) };
         let _ = write!(
             text,
-            "{name} over {} runs: {:.1} evaluations, discrepancy {:.3} {unit}",
-            runs.len(),
-            statistic.evaluations,
-            statistic.discrepancy
+            "{which}: {:.1} evaluations, discrepancy {:.3} {unit}",
+            statistic.evaluations, statistic.discrepancy
         );
         if let Some(painted) = statistic.painted_percent {
             let _ = write!(text, ", painted {painted:.2} %");
@@ -166,6 +165,10 @@ pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[RunRe
             eprintln!("seed {}: {note}", run.seed);
         }
     }
-    eprintln!("{} trajectories written to {}", runs.len() - refused, directory.display());
+    let written = match runs.len() - refused {
+        1 => "1 trajectory".to_owned(),
+        count => format!("{count} trajectories"),
+    };
+    eprintln!("{written} written to {}", directory.display());
     Ok(())
 }

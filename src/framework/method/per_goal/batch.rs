@@ -29,7 +29,7 @@ impl Batch {
     /// # Panics
     /// If `joints` does not have as many values as the batch has genes.
     pub fn push(&mut self, id: u64, joints: &[f64]) {
-        assert_eq!(joints.len(), self.genes, "a candidate has one value a gene");
+        assert_eq!(joints.len(), self.genes, "a candidate has one value per gene");
         self.ids.push(id);
         self.joints.extend_from_slice(joints);
     }
