@@ -1,17 +1,19 @@
 // The frame around every page: brand, navigation (a bar at the bottom of narrow screens), content.
 
 import type { ReactNode } from "react";
-import { Link, NavLink } from "react-router";
+import { Link, useLocation } from "react-router";
 import { Icon, Mark, type IconName } from "../ui/icons";
 
-const PLACES: { to: string; label: string; icon: IconName }[] = [
-  { to: "/jobs", label: "Jobs", icon: "jobs" },
-  { to: "/demonstrations", label: "Demonstrations", icon: "demonstrations" },
-  { to: "/actions", label: "Actions", icon: "actions" },
-  { to: "/robots", label: "Robots", icon: "robots" },
+/** Entries of the navigation; one is current on the pages whose path starts with one of `covers`. */
+const PLACES: { to: string; label: string; icon: IconName; covers: string[] }[] = [
+  { to: "/jobs", label: "Jobs", icon: "jobs", covers: ["/jobs", "/runs"] },
+  { to: "/demonstrations", label: "Demonstrations", icon: "demonstrations", covers: ["/demonstrations"] },
+  { to: "/actions", label: "Actions", icon: "actions", covers: ["/actions"] },
+  { to: "/robots", label: "Robots", icon: "robots", covers: ["/robots"] },
 ];
 
 export function Layout({ children }: { children: ReactNode }) {
+  const { pathname } = useLocation();
   return (
     <div className="shell">
       <a className="skip" href="#content">
@@ -23,10 +25,10 @@ export function Layout({ children }: { children: ReactNode }) {
         </Link>
         <nav className="nav" aria-label="Main">
           {PLACES.map((place) => (
-            <NavLink key={place.to} to={place.to}>
+            <Link key={place.to} to={place.to} aria-current={place.covers.some((path) => pathname.startsWith(path)) ? "page" : undefined}>
               <Icon name={place.icon} />
               {place.label}
-            </NavLink>
+            </Link>
           ))}
         </nav>
         <p className="side-foot muted">
