@@ -14,7 +14,7 @@ use tokio::net::TcpStream;
 #[derive(Debug, clap::Args)]
 #[command(allow_negative_numbers = true)]
 pub struct HealthcheckArguments {
-    /// Address of the server.
+    /// Numeric address and port of the server.
     #[arg(long, default_value = "127.0.0.1:8080", value_name = "ADDRESS", value_parser = address)]
     address: SocketAddr,
     /// Maximum time to wait, seconds.
