@@ -1,8 +1,8 @@
 //! A claimed job and its lease; every write of a worker goes through its claim.
 //!
 //! # Invariants
-//! - A claim that may no longer hold stops the work. If renewals keep failing, or stay without an answer, for half the
-//!   lease, the worker gives the job up, before another worker can claim it.
+//! - A claim that may no longer hold stops the work. If renewals keep failing for half the lease, or one stays
+//!   without an answer until five sixths of it, the worker gives the job up, before another worker can claim it.
 //! - [`ClaimedJob::settle`] is the only answer to pause, cancel and shutdown. Whatever happens between reading a state
 //!   and acting on it, either the job ends up in a state that no worker holds, or the work continues.
 
@@ -271,10 +271,11 @@ impl Renewals {
         self.ports.clock.elapsed().saturating_sub(self.renewed)
     }
 
-    /// Longest wait for the answer to the next renewal: the rest of half the lease. If little or nothing of it is left,
-    /// a sixth of the lease: heartbeats are at most a third of the lease apart, so that this, too, ends with the lease.
+    /// Longest wait for the answer to the next renewal: until five sixths of the lease have passed, because a slow store
+    /// is not a reason to give the job up while nobody else can claim it; at least a twelfth of the lease.
     fn patience(&self) -> Duration {
-        (self.settings.lease / 2).saturating_sub(self.since_renewal()).max(self.settings.lease / 6)
+        let lease = self.settings.lease;
+        (lease * 5 / 6).saturating_sub(self.since_renewal()).max(lease / 12)
     }
 }
 
