@@ -4,7 +4,7 @@
 //! of its memory remembers its position (in generation 1 only the fitness: the position was set at the start); (b) the
 //! particles move in order ([`movement`]) and get a fitness, by execution or by an [`Estimator`]. At its end the best of
 //! the swarm (the last on ties) enters the hall of fame if strictly better than the one there; the search stops when
-//! more than S generations have passed since the hall last changed.
+//! more than S generations have passed since the hall last changed, or [`MOST_ESTIMATES`] moves in a row were estimated.
 //!
 //! # Invariants
 //! - The bits do not depend on how many candidates are asked for at once: a particle moves before an earlier one was
@@ -26,6 +26,10 @@ use super::{
 };
 use crate::random::RandomStream;
 use movement::{Pull, fly};
+
+/// Number of moves, in whole generations without an execution, after which a swarm counts as stagnant. Whoever asks for a
+/// candidate waits meanwhile, and S may be billions of generations.
+const MOST_ESTIMATES: u64 = 1_000_000;
 
 /// A particle that has moved, and what its fitness may be estimated from.
 pub(super) struct Flight<'a> {
@@ -233,6 +237,7 @@ impl<E: Estimator> Swarm<E> {
 impl<E: Estimator> Optimizer for Swarm<E> {
     fn ask(&mut self, batch: &mut Batch) {
         let ahead = self.spec.leader == Leader::BestMemory && !self.estimator.depends_on_order();
+        let mut idle_moves = 0;
         while self.state.stop.is_none() && !batch.is_full() {
             if self.state.waiting.has_more() {
                 self.state.waiting.hand_out(batch, &self.state.x, self.space.lower.len());
@@ -245,7 +250,15 @@ impl<E: Estimator> Optimizer for Swarm<E> {
             let slot = self.state.moved;
             self.state.moved += 1;
             self.move_particle(slot, true);
+            let generation = self.state.generation;
             self.end_generation_if_settled();
+            if self.state.generation > generation {
+                let idle = self.state.provenance.iter().all(|&provenance| provenance == E::PROVENANCE);
+                idle_moves = if idle { idle_moves + u64::from(self.spec.population) } else { 0 };
+            }
+            if idle_moves >= MOST_ESTIMATES {
+                self.state.stop = self.state.stop.or(Some(StopReason::Stagnation));
+            }
         }
     }
 

@@ -83,6 +83,18 @@ proptest! {
 }
 
 #[test]
+fn a_swarm_that_only_estimates_ends() {
+    let mut method = small("fi_pso");
+    if let MethodSpec::FiPso(spec) = &mut method {
+        (spec.inheritance_probability, spec.swarm.stagnation) = (1.0, u32::MAX);
+    }
+    let (seen, _, tally) = search(&method, 1, 5);
+    assert_eq!(seen.len(), 12, "the first generation alone is executed");
+    assert!(tally.inherited >= MOST_ESTIMATES && tally.inherited < MOST_ESTIMATES + 100, "{tally:?}");
+    assert_eq!(search(&method, 1, 1).2, tally);
+}
+
+#[test]
 fn rejection_proposes_another_in_the_same_place() {
     for name in METHODS {
         let mut swarm = small(name).start(space(None), 3, 0).unwrap();
