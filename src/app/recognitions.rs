@@ -5,7 +5,7 @@ use crate::app::model::{
     RecognitionView, RecognizeRequest, limits,
 };
 use crate::app::{UseCases, compute};
-use crate::framework::generalization::Goals;
+use crate::framework::generalization::{Goals, GoalsError};
 use crate::framework::recognition::{Recognition, RecognizeError, RecognizeSpec, observed_rows, recognize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -43,8 +43,7 @@ impl UseCases {
                     AppError::field("/observed/demonstration", "invalid_observation", error.to_string())
                 })
             }
-            Observed::Rows { features, rows } => Goals::new(features, &rows)
-                .map_err(|error| AppError::field("/observed/rows", "invalid_observation", error.to_string())),
+            Observed::Rows { features, rows } => Goals::new(features, &rows).map_err(refused_rows),
         }
     }
 
@@ -67,6 +66,27 @@ impl UseCases {
             })?);
         }
         Ok(actions)
+    }
+}
+
+/// An observation has the shape of goals, but its errors speak of rows.
+fn refused_rows(error: GoalsError) -> AppError {
+    let refuse = |place: String, detail: String| AppError::field(place, "invalid_observation", detail);
+    match error {
+        GoalsError::Empty { features: 0, .. } => {
+            refuse("/observed/features".to_owned(), "an observation needs at least 1 feature".to_owned())
+        }
+        GoalsError::Empty { .. } => {
+            refuse("/observed/rows".to_owned(), "an observation needs at least 1 row".to_owned())
+        }
+        GoalsError::Ragged { goal, found, expected } => refuse(
+            format!("/observed/rows/{goal}"),
+            format!("row {goal} has {found} values, but there are {expected} features: give one value per feature"),
+        ),
+        GoalsError::NonFinite { goal, feature, value } => refuse(
+            format!("/observed/rows/{goal}"),
+            format!("row {goal}, feature {feature:?} is {value}, not a finite number"),
+        ),
     }
 }
 
@@ -155,7 +175,16 @@ mod tests {
         assert_eq!(place(&bench.app.recognize(unknown).await.unwrap_err()), "/candidates/1");
         let negative = RecognizeRequest { threshold: Some(-1.0), ..request(observed) };
         assert_eq!(place(&bench.app.recognize(negative).await.unwrap_err()), "/threshold");
-        let ragged = Observed::Rows { features: vec![Feature::new("x", "mm")], rows: vec![vec![1.0], vec![]] };
-        assert_eq!(place(&bench.app.recognize(request(ragged)).await.unwrap_err()), "/observed/rows");
+        let x = || vec![Feature::new("x", "mm")];
+        for (features, rows, expected) in [
+            (x(), vec![vec![1.0], vec![]], "/observed/rows/1"),
+            (x(), vec![vec![f64::NAN]], "/observed/rows/0"),
+            (x(), Vec::new(), "/observed/rows"),
+            (Vec::new(), vec![vec![]], "/observed/features"),
+        ] {
+            let error = bench.app.recognize(request(Observed::Rows { features, rows })).await.unwrap_err();
+            assert_eq!(place(&error), expected);
+            assert!(!error.message.contains("goal"), "{}", error.message);
+        }
     }
 }

@@ -9,6 +9,7 @@ use serde::de::value::{EnumAccessDeserializer, MapAccessDeserializer};
 use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer, MapAccess, VariantAccess, Visitor,
 };
+use std::convert::Infallible;
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -16,6 +17,9 @@ use std::marker::PhantomData;
 pub trait Tagged<'de>: Sized {
     /// Member that names the variant.
     const TAG: &'static str;
+
+    /// The tag as the one field that is asked for, so that a reader that can choose gives it first.
+    const FIRST: &'static [&'static str] = &[Self::TAG];
 
     /// Reads a variant's name and then its content.
     ///
@@ -35,7 +39,7 @@ pub trait Tagged<'de>: Sized {
 /// # Errors
 /// Anything but such an object.
 pub fn read<'de, T: Tagged<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
-    deserializer.deserialize_map(ObjectVisitor(PhantomData))
+    deserializer.deserialize_struct("object", T::FIRST, ObjectVisitor(PhantomData))
 }
 
 struct ObjectVisitor<T>(PhantomData<T>);
@@ -74,7 +78,7 @@ impl<'de, A: MapAccess<'de>> VariantAccess<'de> for AtTag<A> {
     fn unit_variant(mut self) -> Result<(), A::Error> {
         match self.0.next_key::<String>()? {
             None => Ok(()),
-            Some(key) => Err(A::Error::custom(format_args!("unknown field `{key}`, there are no fields"))),
+            Some(key) => self.0.next_value_seed(Refused(&key)).map(|never| match never {}),
         }
     }
 
@@ -88,6 +92,17 @@ impl<'de, A: MapAccess<'de>> VariantAccess<'de> for AtTag<A> {
 
     fn struct_variant<V: Visitor<'de>>(self, _: &'static [&'static str], visitor: V) -> Result<V::Value, A::Error> {
         visitor.visit_map(self.0)
+    }
+}
+
+/// The value of a member that is not known: it is refused in its own place, which gives the error its path.
+struct Refused<'a>(&'a str);
+
+impl<'de> DeserializeSeed<'de> for Refused<'_> {
+    type Value = Infallible;
+
+    fn deserialize<D: Deserializer<'de>>(self, _: D) -> Result<Infallible, D::Error> {
+        Err(D::Error::custom(format_args!("unknown field `{}`, there are no fields", self.0)))
     }
 }
 

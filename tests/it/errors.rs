@@ -128,6 +128,10 @@ async fn a_wrong_value_inside_a_tagged_object_has_its_own_pointer() {
         ("/worlds", placed(surface), "/spec/column_step_m/1"),
         ("/worlds", placed(json!({"kind": "tool_distance", "point_m": [0, 0], "unit": "m"})), "/spec/point_m"),
         ("/recognitions", observed(json!([[0], ["x"]])), "/observed/rows/1/0"),
+        ("/recognitions", observed(json!([[0], []])), "/observed/rows/1"),
+        ("/experiments", json!({"paper_table": "7"}), "/paper_table"),
+        ("/jobs", execution(json!({"method": {"name": "sst", "kind": "pso"}})), "/execution/method/kind"),
+        ("/jobs", at(json!({"at": "tool", "link": "hand"})), "/execution/constraints/0/point/link"),
     ] {
         let problem = http.post(path, &body).await.expect_problem(422, "invalid_request");
         assert_eq!(problem.text("/errors/0/pointer"), pointer, "{body}: {}", problem.text);

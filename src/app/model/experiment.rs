@@ -38,7 +38,7 @@ fn one() -> u32 {
 
 /// A table of the paper by its number, 1 to 6, or `all`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "not a table of the paper: give 1 to 6, or \"all\"")]
 pub enum PaperTable {
     /// Number of the table, 1 to 6.
     Number(u8),

@@ -9,8 +9,6 @@ mod shape;
 mod structure;
 mod tag_first;
 
-pub use tag_first::TAGS;
-
 use super::json_pointer;
 use super::model::{AppError, ErrorKind};
 use serde::Serialize;
@@ -85,6 +83,11 @@ mod tests {
         assert_eq!(place(r#"{"method": {"population": -1, "name": "sst"}}"#), "/execution/method/population");
         assert_eq!(place(r#"{"method": {"population": 10, "name": "sts"}}"#), "/execution/method/name");
         assert_eq!(place(r#"{"method": "sts"}"#), "/execution/method");
+        assert_eq!(place(r#"{"method": {"at": 1, "name": "sst"}}"#), "/execution/method/at");
+        let point = r#"{"shape": 1, "at": "tool"}"#;
+        let region = r#"{"geometry": {"center_m": [0, 0, 0], "radius_m": 1, "shape": "sphere"}, "kind": "region""#;
+        let body = format!(r#"{{"method": "sst", "constraints": [{region}, "point": {point}}}]}}"#);
+        assert_eq!(place(&body), "/execution/constraints/0/point/shape");
     }
 
     #[test]

@@ -8,12 +8,33 @@ use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 use serde_json::{Error, Value};
 
-/// Members that name the type of the object they stand in.
-pub const TAGS: [&str; 5] = ["kind", "name", "shape", "at", "strategy"];
+/// Tag of a method, the one object that is asked for as any value: a bare name may stand for it.
+const TAG_OF_A_METHOD: &str = "name";
 
-/// A value of which each object gives its tags first.
+/// A value of which each object gives its tag first, which is the first of the fields that are asked for.
 #[derive(Debug, Clone, Copy)]
 pub struct TagFirst<'de>(pub &'de Value);
+
+impl<'de> TagFirst<'de> {
+    /// Gives the value; of an object, the member `first` before the others.
+    fn give<V: Visitor<'de>>(self, first: &str, visitor: V) -> Result<V::Value, Error> {
+        match self.0 {
+            Value::Object(members) => {
+                let rank = |&(key, _): &(&str, Self)| key != first;
+                let mut sorted: Vec<_> = members.iter().map(|(key, value)| (key.as_str(), Self(value))).collect();
+                sorted.sort_by_key(rank);
+                visitor.visit_map(MapDeserializer::new(sorted.into_iter()))
+            }
+            Value::Array(list) => {
+                let mut items: SeqDeserializer<_, Error> = SeqDeserializer::new(list.iter().map(Self));
+                let value = visitor.visit_seq(&mut items)?;
+                items.end()?;
+                Ok(value)
+            }
+            leaf => leaf.deserialize_any(visitor),
+        }
+    }
+}
 
 impl<'de> IntoDeserializer<'de, Error> for TagFirst<'de> {
     type Deserializer = Self;
@@ -27,20 +48,16 @@ impl<'de> Deserializer<'de> for TagFirst<'de> {
     type Error = Error;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        match self.0 {
-            Value::Object(members) => {
-                let mut sorted: Vec<_> = members.iter().map(|(key, value)| (key.as_str(), Self(value))).collect();
-                sorted.sort_by_key(|(key, _)| !TAGS.contains(key));
-                visitor.visit_map(MapDeserializer::new(sorted.into_iter()))
-            }
-            Value::Array(list) => {
-                let mut items: SeqDeserializer<_, Error> = SeqDeserializer::new(list.iter().map(Self));
-                let value = visitor.visit_seq(&mut items)?;
-                items.end()?;
-                Ok(value)
-            }
-            leaf => leaf.deserialize_any(visitor),
-        }
+        self.give(TAG_OF_A_METHOD, visitor)
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.give(fields.first().copied().unwrap_or_default(), visitor)
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
@@ -62,7 +79,7 @@ impl<'de> Deserializer<'de> for TagFirst<'de> {
 
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
-        tuple_struct map struct identifier ignored_any
+        tuple_struct map identifier ignored_any
     }
 }
 

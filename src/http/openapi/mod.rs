@@ -151,22 +151,6 @@ mod tests {
         assert!(schemas.keys().all(|name| !name.contains('_')), "{:?}", schemas.keys());
     }
 
-    fn discriminators<'a>(value: &'a Value, found: &mut BTreeSet<&'a str>) {
-        found.extend(value["discriminator"]["propertyName"].as_str());
-        value.as_object().into_iter().flatten().for_each(|(_, value)| discriminators(value, found));
-        value.as_array().into_iter().flatten().for_each(|value| discriminators(value, found));
-    }
-
-    /// A tag that is not known there would cost errors their exact pointer.
-    #[test]
-    fn every_discriminator_is_read_first() {
-        let document = super::super::document();
-        let mut found = BTreeSet::new();
-        discriminators(&document, &mut found);
-        assert!(found.remove("type"), "of events and of the catalogue, which no client sends");
-        assert_eq!(found, BTreeSet::from(crate::app::strict_json::TAGS));
-    }
-
     /// The schema of a bare name and the catalogue.
     #[test]
     fn a_method_is_named_as_in_the_catalogue() {
