@@ -29,7 +29,7 @@ pub mod worlds;
 pub use access::Access;
 pub use caller::Caller;
 
-use crate::framework::is_display_name;
+use crate::framework::{is_display_name, is_hidden};
 use model::{AppError, ErrorKind, Timestamp, limits};
 use ports::{Clock, Events, Ids, Store};
 use std::ops::RangeInclusive;
@@ -126,7 +126,12 @@ fn check_name(pointer: &str, name: &str) -> Result<(), AppError> {
         return Ok(());
     }
     let (bounds, length) = (limits::in_words(&limits::NAME_CHARS), name.chars().count());
-    let detail = format!("a name has {bounds} visible characters, this one has {length}");
+    let found = match name.chars().find(|&character| is_hidden(character)) {
+        Some(hidden) => format!("holds the hidden character U+{:04X}", u32::from(hidden)),
+        None if name.trim().is_empty() => "has none".to_owned(),
+        None => format!("has {length}"),
+    };
+    let detail = format!("a name has {bounds} visible characters, this one {found}");
     Err(AppError::field(pointer, "invalid_name", detail))
 }
 

@@ -71,6 +71,20 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn a_refused_name_says_what_is_wrong_with_it() {
+        let bench = Bench::new();
+        let spec = bench.world().await.spec;
+        for (name, told) in
+            [("a\u{202e}b", "U+202E"), (" ", "this one has none"), (&*"x".repeat(129), "this one has 129")]
+        {
+            let request = CreateWorld { name: name.to_owned(), spec: spec.clone() };
+            let error = bench.app.create_world(request).await.unwrap_err();
+            assert_eq!(error.details[0].pointer, "/name");
+            assert!(error.message.contains(told), "{}", error.message);
+        }
+    }
+
+    #[tokio::test]
     async fn a_world_in_use_is_not_deleted() {
         let bench = Bench::new();
         let spare = bench.world().await;
