@@ -117,7 +117,7 @@ impl fmt::Display for Range {
 }
 
 /// The number without a trailing `.0`, and with an exponent rather than a row of zeros.
-fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }

@@ -1,6 +1,6 @@
 //! Reasons why constraints are invalid; every error carries the numbers and a remedy.
 
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, plain};
 
 /// A constraint is invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,19 +9,19 @@ pub enum ConstraintError {
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
     /// An annealing penalty that does not cool down, or at once.
-    #[error("cooling is {value}: give more than 0 and less than 1")]
+    #[error("cooling is {}: give more than 0 and less than 1", plain(*value))]
     Cooling {
         /// Value given.
         value: f64,
     },
     /// An adaptive penalty would undo each change by the opposite one.
-    #[error("relax and tighten are both {value}: give two different factors")]
+    #[error("relax and tighten are both {}: give two different factors", plain(*value))]
     EqualFactors {
         /// Value of both.
         value: f64,
     },
     /// The sides of a box cross.
-    #[error("the box is empty: {axis} goes from {lower} m to {upper} m after dilatation")]
+    #[error("the box is empty: {axis} goes from {} m to {} m after dilatation", plain(*lower), plain(*upper))]
     EmptyBox {
         /// `x`, `y` or `z`.
         axis: &'static str,

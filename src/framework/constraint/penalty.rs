@@ -156,6 +156,7 @@ mod tests {
     #[case(PenaltyKind::Adaptive { weight: 1.0, window: 0, relax: 2.0, tighten: 3.0 }, "window")]
     #[case(PenaltyKind::Adaptive { weight: 1.0, window: 3, relax: 2.0, tighten: 2.0 }, "tighten")]
     #[case(PenaltyKind::Annealing { temperature: 1.0, cooling: 1.5, frozen: 0.1 }, "cooling")]
+    #[case(PenaltyKind::Annealing { temperature: 1.0, cooling: 1e308, frozen: 0.1 }, "cooling is 1e308: give")]
     fn parameters_out_of_range_are_named(#[case] penalty: PenaltyKind, #[case] field: &str) {
         let message = check(&PenaltySpec { form: PenaltyForm::Additive, penalty }).unwrap_err().to_string();
         assert!(message.contains(field), "{message}");

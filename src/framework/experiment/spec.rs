@@ -187,6 +187,14 @@ pub enum ExperimentError {
         /// Setting of both.
         setting: String,
     },
+    /// Overrides that are no object: a merge patch of any other kind would replace the whole problem.
+    #[error("cell {cell} ({setting:?}): its overrides are not an object: give the members of the problem to change")]
+    NoPatch {
+        /// Index of the cell, from 0.
+        cell: usize,
+        /// Setting of the cell.
+        setting: String,
+    },
     /// A preset with overrides does not form a valid problem.
     #[error("cell {cell} ({setting:?}): its overrides do not fit preset {preset:?}")]
     Overrides {
@@ -268,6 +276,9 @@ fn place(index: usize, spec: CellSpec, preset: impl Fn(&str) -> Option<Preset>) 
     let base = preset.problem;
     if spec.overrides.is_null() {
         return Ok(Cell { spec, problem: base });
+    }
+    if !spec.overrides.is_object() {
+        return Err(ExperimentError::NoPatch { cell: index, setting: spec.setting });
     }
     let patched = serde_json::to_value(&base).and_then(|mut value| {
         merge(&mut value, &spec.overrides);

@@ -102,6 +102,8 @@ fn a_method_is_taken_with_the_preset_s_parameters() {
 #[case(|s: &mut ExperimentSpec| s.cells[0].preset = "nothing".into(), "preset \"nothing\"")]
 #[case(|s: &mut ExperimentSpec| s.cells.push(s.cells[0].clone()), "cells 0 and 1")]
 #[case(|s: &mut ExperimentSpec| s.cells[0].overrides = json!({"execution": {"metrics": 1}}), "do not fit preset")]
+#[case(|s: &mut ExperimentSpec| s.cells[0].overrides = json!([{}]), "its overrides are not an object")]
+#[case(|s: &mut ExperimentSpec| s.cells[0].overrides = json!(true), "its overrides are not an object")]
 fn refuses(#[case] spoil: fn(&mut ExperimentSpec), #[case] told: &str) {
     let mut spoilt = spec();
     spoil(&mut spoilt);
