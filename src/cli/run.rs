@@ -7,8 +7,9 @@ mod problem;
 mod reality;
 mod seeded;
 
+use crate::app::model::limits::MAX_TRIAL_S;
 use crate::framework::execution::{Iet, ROBOT_TRIAL_S, RunResult, simulate};
-use crate::framework::range::above;
+use crate::framework::range::{Range, above};
 use anyhow::Context as _;
 use figures::Figures;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -58,12 +59,19 @@ pub struct RunArguments {
     #[arg(long)]
     dry_run: bool,
     /// Duration of a trial on a robot, seconds, for --dry-run.
-    #[arg(long, value_name = "SECONDS", default_value_t = ROBOT_TRIAL_S, value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", default_value_t = ROBOT_TRIAL_S, value_parser = trial_s)]
     robot_trial_s: f64,
 }
 
 fn positive(argument: &str) -> Result<f64, String> {
-    let range = above(0.0).up_to(1e9);
+    within(above(0.0).up_to(1e9), argument)
+}
+
+fn trial_s(argument: &str) -> Result<f64, String> {
+    within(above(0.0).up_to(MAX_TRIAL_S), argument)
+}
+
+fn within(range: Range, argument: &str) -> Result<f64, String> {
     let value = argument.parse().ok().filter(|&value| range.contains(value));
     value.ok_or_else(|| format!("give {range}"))
 }
@@ -129,4 +137,17 @@ fn progress_bar(goals: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} goals  {elapsed} elapsed, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(goals).with_style(style)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::trial_s;
+
+    #[test]
+    fn a_trial_takes_as_long_as_over_the_network() {
+        assert_eq!(trial_s("86400"), Ok(86_400.0));
+        for wrong in ["86400.1", "0", "nan", "inf", "x"] {
+            assert_eq!(trial_s(wrong).unwrap_err(), "give more than 0 and at most 86400", "{wrong}");
+        }
+    }
 }
