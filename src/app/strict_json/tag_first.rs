@@ -1,7 +1,7 @@
 //! Reads JSON with the tag of each object before its other members.
 //!
 //! A tag names the type of what stands beside it. Met first, it lets the rest be read in place, so that an error there
-//! has a path; see [`tagged`](crate::framework::tagged).
+//! has a path; see [`tagged`](mod@crate::framework::tagged).
 
 use serde::de::value::{MapDeserializer, SeqDeserializer};
 use serde::de::{Deserializer, IntoDeserializer, Visitor};
