@@ -21,7 +21,7 @@ use super::set::{Constraints, Proposal};
 use super::spec::{HandlingSpec, OnInfeasible, PenaltyKind};
 use super::state::{JudgeState, Judged, STATE_VERSION};
 use crate::method::per_goal::{
-    Batch, Best, Incumbent, Optimizer, OptimizerError, Outcome, SearchSpace, StopReason, Tally,
+    Batch, Best, Incumbent, Optimizer, OptimizerError, Outcome, Provenance, SearchSpace, StopReason, Tally,
 };
 use crate::random::RandomStream;
 use crate::range::Range;
@@ -257,19 +257,27 @@ impl Judge {
         self.generation_may_have_ended(&*optimizer);
     }
 
-    /// The best candidate so far that may be the goal's result.
+    /// The best candidate so far that may be the goal's result. Unless the goal may end infeasibly, it satisfies the
+    /// constraints: if the optimiser's best was neither executed nor satisfies them, the best executed one does.
     #[must_use]
     pub fn best<'a>(&'a self, optimizer: &'a dyn Optimizer) -> Option<Best<'a>> {
         let known = self.state.known.as_ref().map(Incumbent::as_best);
-        match (&self.rules.handling, self.rules.on_infeasible) {
-            (HandlingSpec::Penalty(spec), _)
-                if !matches!(spec.penalty, PenaltyKind::Death { .. }) && known.is_some() =>
-            {
-                known
-            }
-            (_, OnInfeasible::Stop) if known.is_none() => None,
-            _ => optimizer.best(),
+        let worsens = match &self.rules.handling {
+            HandlingSpec::Penalty(spec) => !matches!(spec.penalty, PenaltyKind::Death { .. }),
+            _ => false,
+        };
+        if worsens && known.is_some() {
+            return known;
         }
+        if self.rules.on_infeasible != OnInfeasible::Stop {
+            return optimizer.best();
+        }
+        let known = known?;
+        let may_win = |best: &Best<'_>| {
+            best.provenance.is_executed()
+                || best.provenance != Provenance::Penalised && self.rules.is_feasible(best.joints, [None; 2])
+        };
+        Some(optimizer.best().filter(may_win).unwrap_or(known))
     }
 
     /// Reason why the search ended by its own rules; `None` while it goes on.
