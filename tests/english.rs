@@ -77,10 +77,10 @@ fn report(rule: &str, violations: &[String]) {
 #[test]
 fn doc_comments_begin_with_a_noun_or_a_verb() {
     let mut violations = Vec::new();
-    for (file, text) in sources() {
+    for (file, text) in sources().into_iter().chain(texts(&["proto"], &["proto"])) {
         let mut inside = false;
         for (index, line) in text.lines().enumerate() {
-            let comment = doc(line);
+            let comment = if file.starts_with("proto/") { line.trim_start().strip_prefix("//") } else { doc(line) };
             let first = comment.filter(|_| !inside).and_then(|comment| comment.split_whitespace().next());
             if first.is_some_and(|word| OPENINGS.contains(&word)) {
                 violations.push(format!("{file}:{}: {}", index + 1, line.trim()));
