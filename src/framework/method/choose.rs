@@ -44,7 +44,7 @@ pub fn choose(wishes: &AutoSpec, needs_population: bool, world: &WorldProperties
         (true, true, _) => (
             MethodSpec::Particle(ParticleSpec::default()),
             "A surface is to be covered and the robot's description may be used: each trial is the pose that most of many \
-             slightly different simulated robots expect to cover one new place, about one trial a place.",
+             slightly different simulated robots expect to cover one new place, about one trial per place.",
         ),
         (true, false, true) => (
             MethodSpec::CmaEs(CmaEsSpec::default()),
@@ -57,17 +57,17 @@ pub fn choose(wishes: &AutoSpec, needs_population: bool, world: &WorldProperties
         ),
         (false, _, true) => (
             MethodSpec::CmaEs(CmaEsSpec { precision: FREE_PRECISION, ..CmaEsSpec::default() }),
-            "Trials cost nothing, so the best result counts: CMA-ES comes closest to what the robot can reach.",
+            "Trials cost nothing, so the best result counts: CMA-ES searches on to a fine precision.",
         ),
         (false, true, false) => (
             MethodSpec::Model(ModelSpec { prior: Prior::Simulator, noise: wishes.noise, ..ModelSpec::default() }),
             "What is seen follows the pose, and the robot's description serves as a first guess: a model corrects it from \
-             trial to trial, about one trial a goal.",
+             trial to trial, about one trial per goal.",
         ),
         (false, false, false) => (
             MethodSpec::Model(ModelSpec { noise: wishes.noise, ..ModelSpec::default() }),
             "What is seen follows the pose, and nothing may be assumed of the robot: a few first moves teach a model of it, \
-             then one or two trials a goal do.",
+             then one or two trials per goal do.",
         ),
     }
 }
