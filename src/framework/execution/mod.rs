@@ -15,6 +15,10 @@ mod iet;
 #[cfg(test)]
 mod model_tests;
 mod observations;
+mod path;
+mod replay;
+#[cfg(test)]
+mod replay_tests;
 mod result;
 mod setup;
 mod simulate;
@@ -32,6 +36,8 @@ pub use error::ProblemError;
 pub use estimate::{Preview, ROBOT_TRIAL_S, in_words};
 pub use iet::Iet;
 pub use observations::{Observations, Seen};
+pub use path::PathPose;
+pub use replay::{AlongMotion, Difference, Moves, Replay, SAMPLES_PER_MOVE, replay};
 pub use result::{GoalResult, JointStep, Progress, RunResult, TracePoint};
 pub use simulate::{run, run_while, simulate, simulated_world};
 pub use spec::{ExecutionSpec, Problem};

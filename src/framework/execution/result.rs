@@ -1,5 +1,6 @@
 //! Results of an execution, goal by goal, and progress of a running one.
 
+use super::path::PathPose;
 use crate::method::per_goal::{Provenance, StopReason, Tally};
 use crate::robot::Chain;
 use serde::{Deserialize, Serialize};
@@ -92,6 +93,9 @@ pub struct RunResult {
     pub painted_percent: Option<f64>,
     /// All goals, in order.
     pub goals: Vec<GoalResult>,
+    /// The poses that leave the run's effect, in order of execution.
+    #[serde(default)]
+    pub path: Vec<PathPose>,
     /// SHA-256 (hex) of each goal's joints, evaluations and discrepancy, to the last bit.
     pub digest: String,
 }

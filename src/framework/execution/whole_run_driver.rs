@@ -3,6 +3,7 @@
 
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
+use super::path::{Executed, PathPose, path};
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
 use crate::constraint::Proposal;
@@ -88,6 +89,17 @@ impl WholeRunDriver {
     pub fn kept(&self) -> Option<f64> {
         let kept = self.method.accepted().iter().rev();
         kept.map(|&index| &self.method.log()[index]).find_map(|trial| Some(trial.observation.as_ref()?[0]))
+    }
+
+    /// The path of a finished run: every trial whose effect stays, or one pose per goal if none does.
+    pub fn path(&mut self) -> Vec<PathPose> {
+        let served: Vec<usize> = self.method.outcomes().iter().filter_map(|outcome| outcome.trial).collect();
+        let log = self.method.log();
+        let executed = |index: usize| {
+            let trial: &Trial = &log[index];
+            Executed { joints: &trial.joints, observation: trial.observation.as_deref() }
+        };
+        path(executed, &served, self.method.accepted())
     }
 
     /// The results of all goals, once the method has finished.

@@ -15,6 +15,7 @@ mod tell;
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
 use super::goal_search::GoalSearch;
+use super::path::{Executed, PathPose, path};
 use super::result::{GoalResult, Progress, RunResult, digest};
 use super::setup::Setup;
 use super::state::GoalState;
@@ -170,8 +171,9 @@ impl Iet {
     ///
     /// # Errors
     /// [`ProblemError::Unfinished`] before the last goal has ended.
-    pub fn finish(self) -> Result<RunResult, ProblemError> {
+    pub fn finish(mut self) -> Result<RunResult, ProblemError> {
         let goals = self.setup.goals.len();
+        let path = if self.is_finished() { self.path() } else { Vec::new() };
         let unfinished = ProblemError::Unfinished { goal: self.results.len(), goals };
         let Some(last) = self.results.last().filter(|_| self.is_finished()) else { return Err(unfinished) };
         Ok(RunResult {
@@ -184,6 +186,19 @@ impl Iet {
             tally: self.results.iter().map(|goal| goal.tally).sum(),
             digest: digest(&self.results),
             goals: self.results,
+            path,
         })
+    }
+
+    fn path(&mut self) -> Vec<PathPose> {
+        if let Search::WholeRun(driver) = &mut self.search {
+            return driver.path();
+        }
+        let goals: Vec<usize> = (0..self.results.len()).collect();
+        let executed = |index: usize| {
+            let GoalResult { joints, observation, .. } = &self.results[index];
+            Executed { joints, observation: Some(observation) }
+        };
+        path(executed, &goals, &[])
     }
 }
