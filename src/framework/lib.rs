@@ -20,6 +20,7 @@ pub mod generalization;
 pub mod infinite_as_null;
 pub mod job;
 pub mod method;
+pub mod motion;
 pub mod preset;
 pub mod random;
 pub mod range;

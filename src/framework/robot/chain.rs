@@ -188,6 +188,13 @@ impl Chain {
         free.chain(follow).chain(self.fixed.iter().cloned()).collect()
     }
 
+    /// Whether the tool is where it was after a whole turn of free joint `gene`.
+    #[must_use]
+    pub fn repeats(&self, gene: usize) -> bool {
+        let driven = self.steps.iter().filter(|step| step.gene == gene);
+        driven.clone().count() > 0 && driven.clone().all(|step| !step.prismatic && step.multiplier.fract() == 0.0)
+    }
+
     /// Home pose (n values, rad or m): as described, or else 0 clamped to the limits.
     #[must_use]
     pub fn home(&self) -> &[f64] {

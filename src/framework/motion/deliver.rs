@@ -1,0 +1,104 @@
+//! Delivery of a finished run: its motion, planned, checked and replayed.
+
+use super::equivalent::nearest;
+use crate::execution::{Moves, Problem, ProblemError, Replay, RunResult, SAMPLES_PER_MOVE, replay};
+use crate::robot::{Chain, RobotModel};
+use crate::trajectory::{CheckedTrajectory, PlanSpec, Point, TrajectoryError, plan};
+
+/// The motion of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Poses of the motion, one per pose of the run's path; joints in gene order, rad or m.
+    pub poses: Vec<Vec<f64>>,
+    /// The trajectory from home through the poses, or the reason why there is none.
+    pub trajectory: Result<CheckedTrajectory, MotionError>,
+    /// The effect of the motion, beside that which the run claims.
+    pub replay: Replay,
+}
+
+/// A run has no trajectory.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MotionError {
+    /// The poses cannot be joined within the limits.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+    /// The motion does not have the effect that the run claims.
+    #[error("the replay differs: {0}")]
+    Replay(String),
+}
+
+/// Joins the path of `result` into a motion, checks it and replays it in the world of `problem`.
+///
+/// # Errors
+/// [`ProblemError`] if the result does not belong to the problem.
+pub fn deliver(problem: &Problem, result: &RunResult, planning: &PlanSpec) -> Result<Motion, ProblemError> {
+    let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
+    let found: Vec<Vec<f64>> = result.path.iter().map(|pose| pose.joints.clone()).collect();
+    let poses = nearest(&chain, chain.home(), &found);
+    let mut trajectory = plan(&chain, chain.home(), &poses, planning).map_err(MotionError::from);
+    let between = trajectory.as_ref().map_or_else(|_| Vec::new(), |trajectory| between(trajectory.points()));
+    let replay = replay(problem, result, Moves { poses: &poses, between: &between })?;
+    if let (false, Some(difference)) = (replay.agrees, &replay.largest_difference) {
+        trajectory = Err(MotionError::Replay(difference.to_string()));
+    }
+    Ok(Motion { poses, trajectory, replay })
+}
+
+/// For each waypoint but the first, poses at even times on the way to it.
+fn between(points: &[Point]) -> Vec<Vec<Vec<f64>>> {
+    let times: Vec<f64> = points.iter().filter(|point| point.waypoint.is_some()).map(|point| point.time_s).collect();
+    let samples = |ends: &[f64]| {
+        let at = |step: usize| {
+            let share = step as f64 / SAMPLES_PER_MOVE as f64;
+            position_at(points, ends[0] + (ends[1] - ends[0]) * share)
+        };
+        (1..=SAMPLES_PER_MOVE).map(at).collect()
+    };
+    times.windows(2).map(samples).collect()
+}
+
+/// Joints at `time_s`, on the line between the samples around it.
+fn position_at(points: &[Point], time_s: f64) -> Vec<f64> {
+    let after = points.partition_point(|point| point.time_s < time_s).min(points.len() - 1);
+    let (from, to) = (&points[after.saturating_sub(1)], &points[after]);
+    let span = to.time_s - from.time_s;
+    let share = if span > 0.0 { ((time_s - from.time_s) / span).min(1.0) } else { 1.0 };
+    from.positions.iter().zip(&to.positions).map(|(a, b)| if share < 1.0 { a + (b - a) * share } else { *b }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::execution::run;
+    use crate::preset::shipped;
+
+    #[test]
+    fn a_motion_passes_every_pose_of_the_path_and_shows_its_effect() {
+        for (name, method) in [("wax", "model"), ("paint", "particle"), ("paint", "search")] {
+            let mut preset = shipped(name).unwrap();
+            assert!(preset.select_method(method));
+            let result = run(&preset.problem, 1).unwrap();
+            let motion = deliver(&preset.problem, &result, &PlanSpec::default()).unwrap();
+            let trajectory = motion.trajectory.unwrap();
+            let reached: Vec<&[f64]> =
+                trajectory.points().iter().filter(|p| p.waypoint.is_some()).map(|p| p.positions.as_slice()).collect();
+            assert_eq!(reached, motion.poses.iter().map(Vec::as_slice).collect::<Vec<_>>());
+            assert!(motion.replay.agrees && motion.replay.along.is_some());
+            if let Some(claimed) = result.painted_percent {
+                assert_eq!(motion.replay.painted_percent, Some(claimed), "{name} {method}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_motion_that_does_not_do_what_the_run_claims_is_not_delivered() {
+        let mut preset = shipped("paint").unwrap();
+        assert!(preset.select_method("particle"));
+        let mut result = run(&preset.problem, 1).unwrap();
+        result.path.remove(4);
+        let motion = deliver(&preset.problem, &result, &PlanSpec::default()).unwrap();
+        let error = motion.trajectory.unwrap_err().to_string();
+        assert!(error.starts_with("the replay differs: at pose "), "{error}");
+        assert!(error.contains("the run claims painted = "), "{error}");
+    }
+}

@@ -1,0 +1,15 @@
+//! Motions: the path of a finished run as a robot executes it, checked and replayed.
+//!
+//! path -> equivalent poses with the least motion ([`equivalent`]) -> time-parameterised trajectory
+//! ([`trajectory`](crate::trajectory)) -> replay of the effect at the poses and along the motion
+//! ([`execution::replay`](crate::execution::replay())).
+//!
+//! # Architecture Invariants
+//! - A motion is a function of problem, result and planning options.
+//! - The effect of a motion is never taken from the search: it is replayed.
+
+mod deliver;
+mod equivalent;
+
+pub use deliver::{Motion, MotionError, deliver};
+pub use equivalent::nearest;
