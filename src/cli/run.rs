@@ -9,7 +9,9 @@ mod seeded;
 
 use crate::app::model::limits::MAX_TRIAL_S;
 use crate::framework::execution::{Iet, ROBOT_TRIAL_S, RunResult, simulate};
+use crate::framework::motion::{Motion, deliver};
 use crate::framework::range::{Range, above};
+use crate::framework::trajectory::PlanSpec;
 use anyhow::Context as _;
 use figures::Figures;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -17,6 +19,12 @@ use rayon::prelude::*;
 use seeded::Seeded;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
+
+/// A finished run and its motion.
+struct Delivered {
+    result: RunResult,
+    motion: Motion,
+}
 
 /// Number of evaluations between updates of the progress bar.
 const SLICE: u64 = 2_000;
@@ -44,7 +52,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "PRESET")]
     after: Option<String>,
     /// Start the robot in a pose drawn from the seed, uniformly within its limits.
-    #[arg(long, conflicts_with = "out")]
+    #[arg(long)]
     random_start: bool,
     /// Number of threads; all cores if absent. The result does not depend on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -109,7 +117,7 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
 }
 
 /// Executes all runs; the results are in the order of `seeds`.
-fn search(seeded: &Seeded, seeds: &[u64], threads: Option<u16>) -> anyhow::Result<Vec<RunResult>> {
+fn search(seeded: &Seeded, seeds: &[u64], threads: Option<u16>) -> anyhow::Result<Vec<Delivered>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build()?;
     let bar = progress_bar((seeds.len() * seeded.named.problem.goals.len()) as u64);
     let runs = pool.install(|| seeds.par_iter().map(|&seed| one(seeded, seed, &bar)).collect());
@@ -117,8 +125,9 @@ fn search(seeded: &Seeded, seeds: &[u64], threads: Option<u16>) -> anyhow::Resul
     runs
 }
 
-fn one(seeded: &Seeded, seed: u64, bar: &ProgressBar) -> anyhow::Result<RunResult> {
-    let mut iet = Iet::new(&seeded.problem(seed)?, seed)?;
+fn one(seeded: &Seeded, seed: u64, bar: &ProgressBar) -> anyhow::Result<Delivered> {
+    let problem = seeded.problem(seed)?;
+    let mut iet = Iet::new(&problem, seed)?;
     let mut world = iet.world()?;
     let mut goals_done = 0;
     while !iet.is_finished() {
@@ -127,7 +136,9 @@ fn one(seeded: &Seeded, seed: u64, bar: &ProgressBar) -> anyhow::Result<RunResul
         bar.inc((done - goals_done) as u64);
         goals_done = done;
     }
-    Ok(iet.finish()?)
+    let result = iet.finish()?;
+    let motion = deliver(&problem, &result, &PlanSpec::default())?;
+    Ok(Delivered { result, motion })
 }
 
 fn progress_bar(goals: u64) -> ProgressBar {

@@ -74,6 +74,11 @@ impl CellSet {
         self.words.fill(0);
     }
 
+    /// The cells in the set, in order.
+    pub fn iter(&self) -> impl Iterator<Item = usize> {
+        (0..self.words.len() * WORD).filter(|&cell| self.contains(cell))
+    }
+
     /// Number of cells in the set.
     #[must_use]
     pub fn count(&self) -> u32 {

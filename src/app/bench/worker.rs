@@ -150,7 +150,14 @@ impl Bench {
         let improvement =
             |evaluations| ConvergencePoint { goal_index: 0, evaluations, discrepancy: 1.0 / evaluations as f64 };
         let features = work.problem.goals.features().to_vec();
-        let goals = RunGoals { run: id, features, joint_names: planned.joints().to_vec(), goals };
+        let goals = RunGoals {
+            run: id,
+            features,
+            joint_names: planned.joints().to_vec(),
+            goals,
+            path: Vec::new(),
+            painted_cells: None,
+        };
         let convergence = (1..=100).map(improvement).collect();
         let run = NewRun { view: view.clone(), goals, convergence, trajectory, trials: KeptTrials::default() };
         self.succeed(&claimed, made(Product::Run(Box::new(run)))).await;

@@ -46,7 +46,7 @@ pub use method::{MethodList, MethodView, ParameterType, ParameterView};
 pub use page::{Keyset, Page, PageQuery};
 pub use recognition::{IncomparableCandidate, Observed, RecognitionCandidate, RecognitionView, RecognizeRequest};
 pub use robot::{CreateRobot, RobotView};
-pub use run::{Convergence, ConvergencePoint, RunFilter, RunGoal, RunGoals, RunTrials, RunView};
+pub use run::{Convergence, ConvergencePoint, PathPose, RunFilter, RunGoal, RunGoals, RunTrials, RunView};
 pub use samples::{SamplesQuery, SamplesView, Series};
 pub use time::Timestamp;
 pub use trajectory::{TrajectoryPoint, TrajectoryView};

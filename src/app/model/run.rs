@@ -2,10 +2,12 @@
 
 use super::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use super::time::Timestamp;
+use crate::framework::CellSet;
 use crate::framework::Feature;
-use crate::framework::execution::JointStep;
+use crate::framework::execution::Replay;
 use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
 use crate::framework::method::whole_run::Trial;
+use crate::framework::motion::JointStep;
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -42,7 +44,7 @@ pub struct RunView {
     pub valid: bool,
     /// Number of fitness values of all goals by origin.
     pub provenance: Tally,
-    /// Painted share, %; absent unless the world is a surface.
+    /// Painted share that the trajectory leaves, %, by its replay; absent unless the world is a surface.
     #[schema(required = true)]
     pub painted_percent: Option<f64>,
     /// Number of goals.
@@ -51,6 +53,10 @@ pub struct RunView {
     /// as 1 m. Absent for runs of earlier versions.
     #[schema(required = true)]
     pub largest_step: Option<JointStep>,
+    /// Effect of the poses and of the motion when they were executed once more, in simulation, before the run was stored;
+    /// absent for runs of earlier versions.
+    #[schema(required = true)]
+    pub replay: Option<Replay>,
     /// SHA-256 of the result's bits, hexadecimal.
     pub digest: String,
     /// Trajectory; absent if none stays within the limits, as `trajectory_problem` explains.
@@ -62,6 +68,9 @@ pub struct RunView {
     /// Time at which it ended.
     pub created_at: Timestamp,
 }
+
+#[cfg(test)]
+use crate::framework::execution::AlongMotion;
 
 #[cfg(test)]
 impl RunView {
@@ -86,6 +95,13 @@ impl RunView {
             painted_percent: None,
             goals: 0,
             largest_step: Some(JointStep { joint: "j2".to_owned(), goal_index: 1, size: 0.4 }),
+            replay: Some(Replay {
+                discrepancy: 0.3,
+                painted_percent: None,
+                along: Some(AlongMotion { discrepancy: 0.4, painted_percent: None }),
+                largest_difference: None,
+                agrees: true,
+            }),
             digest: "d".to_owned(),
             trajectory: None,
             trajectory_problem: Some("too steep".to_owned()),
@@ -137,6 +153,22 @@ pub struct RunGoals {
     pub joint_names: Vec<String>,
     /// One entry per goal.
     pub goals: Vec<RunGoal>,
+    /// The poses of the trajectory in order: every trial whose effect stays, with the goals it serves. Empty for runs of
+    /// earlier versions.
+    pub path: Vec<PathPose>,
+    /// The cells that the path covers by its replay, 64 per word, row-major, lowest bit first; absent unless the world
+    /// is a surface.
+    #[schema(value_type = Option<Vec<u64>>, required = true)]
+    pub painted_cells: Option<CellSet>,
+}
+
+/// One pose of a run's path.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PathPose {
+    /// Free joints, rad or m; equal to those found by the search up to whole turns of a joint.
+    pub joints: Vec<f64>,
+    /// Indices of the goals it serves, from 0; empty for a trial that left an effect but serves no goal.
+    pub goals: Vec<u32>,
 }
 
 /// Trials of a run whose method plans the whole run.

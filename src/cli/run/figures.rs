@@ -1,6 +1,6 @@
 //! Summary of many runs of one problem: mean, median and p90 of each figure, and the share of runs below a threshold.
 
-use crate::framework::execution::RunResult;
+use super::Delivered;
 use crate::framework::experiment::Summary;
 use serde::Serialize;
 
@@ -31,18 +31,18 @@ pub(super) struct Figures {
 
 impl Figures {
     /// Statistics of `runs`, `None` if there are none; `threshold` is in the features' unit.
-    pub(super) fn of(runs: &[RunResult], threshold: Option<f64>) -> Option<Self> {
-        let over = |value: fn(&RunResult) -> f64| Summary::of(&runs.iter().map(value).collect::<Vec<f64>>());
-        let evaluations = over(|r| r.evaluations as f64)?;
-        let discrepancy = over(|r| r.discrepancy)?;
-        let painted: Option<Vec<f64>> = runs.iter().map(|r| r.painted_percent).collect();
+    pub(super) fn of(runs: &[Delivered], threshold: Option<f64>) -> Option<Self> {
+        let over = |value: fn(&Delivered) -> f64| Summary::of(&runs.iter().map(value).collect::<Vec<f64>>());
+        let evaluations = over(|r| r.result.evaluations as f64)?;
+        let discrepancy = over(|r| r.result.discrepancy)?;
+        let painted: Option<Vec<f64>> = runs.iter().map(|r| r.motion.replay.painted_percent).collect();
         let painted = painted.and_then(|values| Summary::of(&values));
         let statistic = |pick: fn(&Summary) -> f64| Statistic {
             evaluations: pick(&evaluations),
             discrepancy: pick(&discrepancy),
             painted_percent: painted.as_ref().map(pick),
         };
-        let share = |limit| runs.iter().filter(|r| r.discrepancy <= limit).count() as f64 / runs.len() as f64;
+        let share = |limit| runs.iter().filter(|r| r.result.discrepancy <= limit).count() as f64 / runs.len() as f64;
         Some(Self {
             mean: statistic(|s| s.mean),
             median: statistic(|s| s.median),
@@ -55,7 +55,9 @@ impl Figures {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::framework::execution::run;
+    use crate::framework::execution::{RunResult, run};
+    use crate::framework::motion::deliver;
+    use crate::framework::trajectory::PlanSpec;
     use crate::reproduce::shipped;
 
     #[test]
@@ -63,8 +65,13 @@ mod tests {
         let mut preset = shipped::preset("polish").unwrap();
         assert!(preset.select_method("model"));
         let one = run(&preset.problem, 1).unwrap();
-        let runs: Vec<RunResult> =
-            (1..=5).map(|k| RunResult { evaluations: 10 * k, discrepancy: k as f64, ..one.clone() }).collect();
+        let motion = deliver(&preset.problem, &one, &PlanSpec::default()).unwrap();
+        let runs: Vec<Delivered> = (1..=5)
+            .map(|k| Delivered {
+                result: RunResult { evaluations: 10 * k, discrepancy: k as f64, ..one.clone() },
+                motion: motion.clone(),
+            })
+            .collect();
         let figures = Figures::of(&runs, Some(4.0)).unwrap();
         assert_eq!((figures.mean.evaluations, figures.median.discrepancy), (30.0, 3.0));
         assert!((figures.p90.evaluations - 46.0).abs() < 1e-9);

@@ -1,11 +1,12 @@
 //! Output of `cgda run`: text, JSON and trajectory files.
 
+use super::Delivered;
 use super::figures::Figures;
 use super::seeded::Seeded;
-use crate::framework::execution::{Chosen, RunResult};
+use crate::framework::execution::{Chosen, Replay};
+use crate::framework::motion::Motion;
 use crate::framework::preset::Preset;
-use crate::framework::robot::{Chain, RobotModel};
-use crate::framework::trajectory::{PlanSpec, export, plan};
+use crate::framework::trajectory::export;
 use anyhow::Context as _;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -33,7 +34,14 @@ struct Run<'a> {
     seed: u64,
     evaluations: u64,
     discrepancy: f64,
+    /// Painted share that the trajectory leaves, %.
     painted_percent: Option<f64>,
+    /// Cells that the trajectory paints, row * columns + column.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    painted_cells: Option<Vec<usize>>,
+    replay: &'a Replay,
+    /// Reason why there is no trajectory.
+    trajectory_problem: Option<String>,
     goals: Vec<Goal>,
     digest: &'a str,
 }
@@ -47,7 +55,7 @@ struct Goal {
 }
 
 /// The result of all runs as one JSON object.
-pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[RunResult], figures: Figures) -> anyhow::Result<String> {
+pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[Delivered], figures: Figures) -> anyhow::Result<String> {
     let named = &seeded.named;
     let report = Report {
         preset: &named.name,
@@ -58,11 +66,14 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[RunResult], figures: Figu
         after: seeded.after.as_ref().map(|before| before.name.as_str()),
         runs: runs
             .iter()
-            .map(|run| Run {
+            .map(|Delivered { result: run, motion }| Run {
                 seed: run.seed,
                 evaluations: run.evaluations,
                 discrepancy: run.discrepancy,
-                painted_percent: run.painted_percent,
+                painted_percent: motion.replay.painted_percent,
+                painted_cells: motion.cells.as_ref().map(|cells| cells.iter().collect()),
+                replay: &motion.replay,
+                trajectory_problem: motion.trajectory.as_ref().err().map(ToString::to_string),
                 goals: run
                     .goals
                     .iter()
@@ -88,10 +99,11 @@ pub(super) fn method(named: &Preset) -> String {
 }
 
 /// Table of the best run's goals, followed by the statistics over all runs.
-pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> String {
+pub(super) fn table(named: &Preset, runs: &[Delivered], figures: &Figures) -> String {
     let unit = named.problem.goals.features().first().map_or("", |f| f.unit.as_str());
     let mut text = format!("{}: {}\n{}", named.name, named.description, method(named));
-    let Some(best) = runs.iter().min_by(|a, b| a.discrepancy.total_cmp(&b.discrepancy)) else { return text };
+    let best = runs.iter().min_by(|a, b| a.result.discrepancy.total_cmp(&b.result.discrepancy));
+    let Some(Delivered { result: best, motion }) = best else { return text };
     if runs.len() > 1 {
         let _ = writeln!(text, "best of {} runs: seed {}", runs.len(), best.seed);
     }
@@ -116,6 +128,7 @@ pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> St
             joints.join(" ")
         );
     }
+    text.push_str(&effect(motion, unit));
     for (name, statistic) in [("mean", &figures.mean), ("median", &figures.median), ("p90", &figures.p90)] {
         if runs.len() == 1 && name != "mean" {
             continue;
@@ -138,13 +151,30 @@ pub(super) fn table(named: &Preset, runs: &[RunResult], figures: &Figures) -> St
     text
 }
 
-/// Plans each run's trajectory from the robot's home pose and writes it in three formats.
-pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[RunResult]) -> anyhow::Result<()> {
+/// A line with the effect of the trajectory by its replay, or with the reason why there is none.
+fn effect(motion: &Motion, unit: &str) -> String {
+    let Motion { trajectory, replay, .. } = motion;
+    let mut text = format!("replayed: discrepancy {:.4} {unit} at the goals", replay.discrepancy);
+    if let Some(along) = &replay.along {
+        let _ = write!(text, ", {:.4} {unit} along the motion", along.discrepancy);
+    }
+    if let Some(painted) = replay.painted_percent {
+        let _ = write!(text, ", painted {painted:.2} %");
+    }
+    text.push('\n');
+    match trajectory {
+        Ok(trajectory) => _ = writeln!(text, "trajectory: {:.2} s", trajectory.duration_s()),
+        Err(why) => _ = writeln!(text, "no trajectory: {why}"),
+    }
+    text
+}
+
+/// Writes each run's trajectory in three formats.
+pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[Delivered]) -> anyhow::Result<()> {
     std::fs::create_dir_all(directory).with_context(|| format!("cannot create {}", directory.display()))?;
-    let chain = Chain::new(&RobotModel::from_urdf(&named.problem.urdf)?, &named.problem.robot)?;
     let mut refused = 0;
-    for run in runs {
-        let trajectory = match plan(&chain, chain.home(), &run.waypoints(), &PlanSpec::default()) {
+    for Delivered { result: run, motion } in runs {
+        let trajectory = match &motion.trajectory {
             Ok(trajectory) => trajectory,
             Err(error) => {
                 eprintln!("no trajectory for seed {}: {error}", run.seed);
@@ -154,9 +184,9 @@ pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[RunRe
         };
         let stem = format!("{}-{}-{}", named.name, named.problem.execution.method.name(), run.seed);
         for (ending, text) in [
-            ("csv", export::csv(&trajectory)),
-            ("json", export::json(&trajectory)?),
-            ("ros2.yaml", export::ros2_joint_trajectory(&trajectory)),
+            ("csv", export::csv(trajectory)),
+            ("json", export::json(trajectory)?),
+            ("ros2.yaml", export::ros2_joint_trajectory(trajectory)),
         ] {
             let path = directory.join(format!("{stem}.{ending}"));
             std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;

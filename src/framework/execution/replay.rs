@@ -42,9 +42,14 @@ pub struct Replay {
     pub largest_difference: Option<Difference>,
     /// Whether claim and replay agree, up to rounding.
     pub agrees: bool,
-    /// The covered cells after the last pose, 64 per word, row-major, lowest bit first; absent unless the world is a
-    /// surface.
-    #[cfg_attr(feature = "schema", schema(value_type = Option<Vec<u64>>, required = true))]
+}
+
+/// A replay with the cells it covers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replayed {
+    /// Figures of the effect.
+    pub replay: Replay,
+    /// The covered cells after the last pose; `None` unless the world is a surface.
     pub cells: Option<CellSet>,
 }
 
@@ -92,7 +97,7 @@ pub struct Moves<'a> {
 ///
 /// # Errors
 /// [`ProblemError`] if `result` does not belong to the problem.
-pub fn replay(problem: &Problem, result: &RunResult, moves: Moves<'_>) -> Result<Replay, ProblemError> {
+pub fn replay(problem: &Problem, result: &RunResult, moves: Moves<'_>) -> Result<Replayed, ProblemError> {
     let (setup, method) = Setup::of(problem)?;
     if moves.poses.len() != result.path.len() {
         let (found, expected) = (moves.poses.len(), result.path.len());
@@ -108,7 +113,7 @@ struct Replayer<'a> {
 }
 
 impl Replayer<'_> {
-    fn run(&self, moves: Moves<'_>) -> Result<Replay, ProblemError> {
+    fn run(&self, moves: Moves<'_>) -> Result<Replayed, ProblemError> {
         let mut world = self.quiet_world()?;
         let shown = self.effects(world.as_mut(), moves.poses.iter().map(Vec::as_slice));
         let cells = world.cells().cloned();
@@ -128,14 +133,14 @@ impl Replayer<'_> {
             differences.compare(claims(&self.result.path), &shown);
         }
         let (largest_difference, agrees) = differences.finish();
-        Ok(Replay {
+        let replay = Replay {
             discrepancy: self.discrepancy(&shown),
             painted_percent: self.setup.painted.and(shown.last()).map(|_| share(cells.as_ref(), self.cell_count())),
             along: self.along(world.as_mut(), moves),
             largest_difference,
             agrees,
-            cells,
-        })
+        };
+        Ok(Replayed { replay, cells })
     }
 
     fn cell_count(&self) -> usize {

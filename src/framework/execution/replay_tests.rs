@@ -25,7 +25,7 @@ fn replayed(problem: &Problem, result: &RunResult) -> Replay {
         (1..=SAMPLES_PER_MOVE).map(at).collect::<Vec<Vec<f64>>>()
     };
     let between: Vec<Vec<Vec<f64>>> = poses.windows(2).map(line).collect();
-    replay(problem, result, Moves { poses: &poses, between: &between }).unwrap()
+    replay(problem, result, Moves { poses: &poses, between: &between }).unwrap().replay
 }
 
 #[rstest]

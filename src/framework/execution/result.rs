@@ -2,10 +2,8 @@
 
 use super::path::PathPose;
 use crate::method::per_goal::{Provenance, StopReason, Tally};
-use crate::robot::Chain;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use std::iter;
 
 /// An improvement of the best discrepancy.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -100,18 +98,6 @@ pub struct RunResult {
     pub digest: String,
 }
 
-/// Move of one joint from one goal to the next.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct JointStep {
-    /// Name of the joint.
-    pub joint: String,
-    /// Index of the goal it leads to, from 0; goal 0 is reached from the home pose.
-    pub goal_index: u32,
-    /// Absolute change of position, rad or m, depending on the joint's kind.
-    pub size: f64,
-}
-
 fn satisfied() -> bool {
     true
 }
@@ -121,21 +107,6 @@ impl RunResult {
     #[must_use]
     pub fn waypoints(&self) -> Vec<Vec<f64>> {
         self.goals.iter().map(|g| g.joints.clone()).collect()
-    }
-
-    /// Largest move of one joint of `chain` between successive goals, the first from its home pose; of equal ones the
-    /// first. 1 rad counts as much as 1 m. `None` if there are no goals.
-    #[must_use]
-    pub fn largest_step(&self, chain: &Chain) -> Option<JointStep> {
-        let poses = || self.goals.iter().map(|goal| goal.joints.as_slice());
-        let moves = iter::once(chain.home()).chain(poses()).zip(poses()).zip(0..);
-        let steps = moves.flat_map(|((from, to), goal_index)| {
-            let sizes = from.iter().zip(to).map(|(from, to)| (to - from).abs());
-            sizes.zip(chain.genes()).map(move |(size, gene)| (size, &gene.name, goal_index))
-        });
-        let (size, joint, goal_index) =
-            steps.reduce(|largest, step| if step.0 > largest.0 { step } else { largest })?;
-        Some(JointStep { joint: joint.clone(), goal_index, size })
     }
 }
 
@@ -167,36 +138,5 @@ pub(super) fn record(trace: &mut Vec<TracePoint>, point: TracePoint) {
             index += 1;
             keep
         });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::execution::run;
-    use crate::preset::shipped;
-    use crate::robot::{Chain, RobotModel};
-
-    #[test]
-    fn the_largest_step_begins_at_home_and_names_its_joint() {
-        let problem = shipped("paper-wax").unwrap().problem;
-        let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf).unwrap(), &problem.robot).unwrap();
-        let mut result = run(&problem, 1).unwrap();
-        let poses = [[0.3, 0.0, 0.0], [0.3, -0.4, 0.4], [0.3, -0.4, 0.0]];
-        let moved = |joints: [f64; 3]| joints.iter().zip(chain.home()).map(|(q, home)| home + q).collect();
-        result.goals.truncate(poses.len());
-        for (goal, pose) in result.goals.iter_mut().zip(poses) {
-            goal.joints = moved(pose);
-        }
-        let step = result.largest_step(&chain).unwrap();
-        assert_eq!((step.joint.as_str(), step.goal_index), (chain.genes()[1].name.as_str(), 1));
-        assert!((step.size - 0.4).abs() < 1e-12, "{step:?}");
-        result.goals[0].joints = moved([0.3, 0.0, -0.7]);
-        let first = result.largest_step(&chain).unwrap();
-        assert_eq!((first.joint.as_str(), first.goal_index), (chain.genes()[2].name.as_str(), 1));
-        result.goals.truncate(1);
-        let first = result.largest_step(&chain).unwrap();
-        assert_eq!((first.joint.as_str(), first.goal_index), (chain.genes()[2].name.as_str(), 0));
-        result.goals.clear();
-        assert_eq!(result.largest_step(&chain), None);
     }
 }

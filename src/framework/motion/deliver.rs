@@ -1,7 +1,9 @@
 //! Delivery of a finished run: its motion, planned, checked and replayed.
 
 use super::equivalent::nearest;
-use crate::execution::{Moves, Problem, ProblemError, Replay, RunResult, SAMPLES_PER_MOVE, replay};
+use super::step::{JointStep, largest_step};
+use crate::CellSet;
+use crate::execution::{Moves, Problem, ProblemError, Replay, Replayed, RunResult, SAMPLES_PER_MOVE, replay};
 use crate::robot::{Chain, RobotModel};
 use crate::trajectory::{CheckedTrajectory, PlanSpec, Point, TrajectoryError, plan};
 
@@ -12,8 +14,12 @@ pub struct Motion {
     pub poses: Vec<Vec<f64>>,
     /// The trajectory from home through the poses, or the reason why there is none.
     pub trajectory: Result<CheckedTrajectory, MotionError>,
+    /// Largest move of one joint between successive poses; `None` if there are no poses.
+    pub largest_step: Option<JointStep>,
     /// The effect of the motion, beside that which the run claims.
     pub replay: Replay,
+    /// The cells that the motion covers, painting at its poses; `None` unless the world is a surface.
+    pub cells: Option<CellSet>,
 }
 
 /// A run has no trajectory.
@@ -37,11 +43,12 @@ pub fn deliver(problem: &Problem, result: &RunResult, planning: &PlanSpec) -> Re
     let poses = nearest(&chain, chain.home(), &found);
     let mut trajectory = plan(&chain, chain.home(), &poses, planning).map_err(MotionError::from);
     let between = trajectory.as_ref().map_or_else(|_| Vec::new(), |trajectory| between(trajectory.points()));
-    let replay = replay(problem, result, Moves { poses: &poses, between: &between })?;
+    let Replayed { replay, cells } = replay(problem, result, Moves { poses: &poses, between: &between })?;
     if let (false, Some(difference)) = (replay.agrees, &replay.largest_difference) {
         trajectory = Err(MotionError::Replay(difference.to_string()));
     }
-    Ok(Motion { poses, trajectory, replay })
+    let largest_step = largest_step(&chain, &result.path, &poses);
+    Ok(Motion { poses, largest_step, trajectory, replay, cells })
 }
 
 /// For each waypoint but the first, poses at even times on the way to it.

@@ -10,6 +10,8 @@
 
 mod deliver;
 mod equivalent;
+mod step;
 
 pub use deliver::{Motion, MotionError, deliver};
 pub use equivalent::nearest;
+pub use step::JointStep;

@@ -2,10 +2,11 @@
 
 use super::enumeration::Enumeration as _;
 use super::{all, time};
-use crate::app::model::{Convergence, ConvergencePoint, RunGoal, RunGoals, RunTrials, RunView};
-use crate::framework::execution::JointStep;
+use crate::app::model::{Convergence, ConvergencePoint, PathPose, RunGoal, RunGoals, RunTrials, RunView};
+use crate::framework::execution::{AlongMotion, Difference, Replay};
 use crate::framework::method::per_goal::Tally;
 use crate::framework::method::whole_run::Trial;
+use crate::framework::motion::JointStep;
 use crate::grpc::proto;
 
 impl From<RunView> for proto::Run {
@@ -28,6 +29,7 @@ impl From<RunView> for proto::Run {
             painted_percent,
             goals,
             largest_step,
+            replay,
             digest,
             trajectory,
             trajectory_problem,
@@ -51,6 +53,7 @@ impl From<RunView> for proto::Run {
             painted_percent,
             goals,
             largest_step: largest_step.map(Into::into),
+            replay: replay.map(Into::into),
             digest,
             trajectory: trajectory.map(Into::into),
             trajectory_problem,
@@ -66,6 +69,33 @@ impl From<JointStep> for proto::JointStep {
     }
 }
 
+impl From<Replay> for proto::Replay {
+    fn from(replay: Replay) -> Self {
+        let Replay { discrepancy, painted_percent, along, largest_difference, agrees } = replay;
+        Self {
+            discrepancy,
+            painted_percent,
+            along: along.map(Into::into),
+            largest_difference: largest_difference.map(Into::into),
+            agrees,
+        }
+    }
+}
+
+impl From<AlongMotion> for proto::AlongMotion {
+    fn from(along: AlongMotion) -> Self {
+        let AlongMotion { discrepancy, painted_percent } = along;
+        Self { discrepancy, painted_percent }
+    }
+}
+
+impl From<Difference> for proto::Difference {
+    fn from(difference: Difference) -> Self {
+        let Difference { pose, goal, feature, claimed, replayed } = difference;
+        Self { pose, goal, feature, claimed, replayed }
+    }
+}
+
 impl From<Tally> for proto::Tally {
     fn from(tally: Tally) -> Self {
         let Tally { simulated, real, inherited, granule, penalised, worsened, rejected, repaired } = tally;
@@ -75,8 +105,22 @@ impl From<Tally> for proto::Tally {
 
 impl From<RunGoals> for proto::RunGoals {
     fn from(view: RunGoals) -> Self {
-        let RunGoals { run, features, joint_names, goals } = view;
-        Self { run: run.into(), features: all(features), joint_names, goals: all(goals) }
+        let RunGoals { run, features, joint_names, goals, path, painted_cells } = view;
+        Self {
+            run: run.into(),
+            features: all(features),
+            joint_names,
+            goals: all(goals),
+            path: all(path),
+            painted_cells: painted_cells.unwrap_or_default().into(),
+        }
+    }
+}
+
+impl From<PathPose> for proto::PathPose {
+    fn from(pose: PathPose) -> Self {
+        let PathPose { joints, goals } = pose;
+        Self { joints, goals }
     }
 }
 

@@ -1,14 +1,15 @@
 //! A finished repetition as stored: run, goals, convergence, trajectory.
 
 use crate::app::model::{
-    ConvergencePoint, ExecutionWork, JobId, RunGoal, RunGoals, RunId, RunView, Timestamp, TrajectoryId,
+    ConvergencePoint, ExecutionWork, JobId, PathPose, RunGoal, RunGoals, RunId, RunView, Timestamp, TrajectoryId,
     TrajectoryPoint, TrajectoryView,
 };
 use crate::app::ports::{KeptTrials, NewRun};
-use crate::app::trajectories::{digest, plan_through};
+use crate::app::trajectories::digest;
 use crate::framework::distance::distance;
-use crate::framework::execution::{Iet, ProblemError, RunResult};
-use crate::framework::trajectory::CheckedTrajectory;
+use crate::framework::execution::{self, Iet, ProblemError, RunResult};
+use crate::framework::motion::{Motion, deliver};
+use crate::framework::trajectory::{CheckedTrajectory, PlanSpec};
 use uuid::Uuid;
 
 /// Ids and time of a repetition's results.
@@ -34,9 +35,12 @@ pub(super) fn finished_run(
     let trials = KeptTrials { setup_key: work.setup_key.clone(), trials: iet.log().to_vec() };
     let result = iet.finish()?;
     let id = RunId::from_uuid(marks.run);
-    let (trajectory, trajectory_problem) = match plan_through(&chain, &result.waypoints()) {
-        Ok(planned) => (Some(trajectory(&planned, &id, work, job, marks)), None),
-        Err(why) => (None, Some(why)),
+    let Motion { poses, trajectory, largest_step, replay, cells } =
+        deliver(&work.problem, &result, &PlanSpec::default())?;
+    let path: Vec<PathPose> = result.path.iter().zip(poses).map(path_pose).collect();
+    let (trajectory, trajectory_problem) = match trajectory {
+        Ok(planned) => (Some(stored_trajectory(&planned, &path, &id, work, job, marks)), None),
+        Err(why) => (None, Some(why.to_string())),
     };
     let view = RunView {
         id: id.clone(),
@@ -51,11 +55,12 @@ pub(super) fn finished_run(
         evaluations: result.evaluations,
         discrepancy: result.discrepancy,
         true_discrepancy: result.true_discrepancy,
-        valid: result.valid,
+        valid: result.valid && replay.agrees,
         provenance: result.tally,
-        painted_percent: result.painted_percent,
+        painted_percent: replay.painted_percent,
         goals: u32::try_from(result.goals.len()).unwrap_or(u32::MAX),
-        largest_step: result.largest_step(&chain),
+        largest_step,
+        replay: Some(replay),
         digest: result.digest.clone(),
         trajectory: trajectory.as_ref().map(|trajectory| trajectory.id.clone()),
         trajectory_problem,
@@ -66,12 +71,25 @@ pub(super) fn finished_run(
         features: work.problem.goals.features().to_vec(),
         joint_names: chain.genes().iter().map(|gene| gene.name.clone()).collect(),
         goals: goals(&result, work),
+        path,
+        painted_cells: cells,
     };
     Ok(NewRun { view, goals, convergence: convergence(&result), trajectory, trials })
 }
 
-fn trajectory(
+fn path_pose((found, joints): (&execution::PathPose, Vec<f64>)) -> PathPose {
+    PathPose { joints, goals: found.goals.iter().map(|&goal| u32::try_from(goal).unwrap_or(u32::MAX)).collect() }
+}
+
+/// Times at which the goals are served, in order of the goals.
+fn goal_times_s(planned: &CheckedTrajectory, path: &[PathPose]) -> Vec<f64> {
+    let reached = planned.points().iter().filter(|point| point.waypoint.is_some()).zip(path);
+    reached.flat_map(|(point, pose)| pose.goals.iter().map(|_| point.time_s)).collect()
+}
+
+fn stored_trajectory(
     planned: &CheckedTrajectory,
+    path: &[PathPose],
     run: &RunId,
     work: &ExecutionWork,
     job: &JobId,
@@ -86,7 +104,7 @@ fn trajectory(
         joint_names: planned.joints().to_vec(),
         fixed_joints: planned.fixed_joints().clone(),
         duration_s: planned.duration_s(),
-        goal_times_s: points.iter().filter(|point| point.waypoint.is_some()).map(|point| point.time_s).collect(),
+        goal_times_s: goal_times_s(planned, path),
         tightest: planned.tightest().to_vec(),
         notes: planned.notes().to_vec(),
         sha256: digest(planned),

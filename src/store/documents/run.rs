@@ -3,13 +3,15 @@
 use super::tally::{Tally, complete_tally};
 use super::{complete, document, versions};
 use crate::app::model::{
-    ActionId, ConvergencePoint, JobId, RobotId, RunGoal, RunGoals as Goals, RunId, RunView, Timestamp, TrajectoryId,
-    WorldId,
+    ActionId, ConvergencePoint, JobId, PathPose, RobotId, RunGoal, RunGoals as Goals, RunId, RunView, Timestamp,
+    TrajectoryId, WorldId,
 };
+use crate::framework::CellSet;
 use crate::framework::Feature;
-use crate::framework::execution::JointStep;
+use crate::framework::execution::Replay;
 use crate::framework::infinite_as_null;
 use crate::framework::method::per_goal::{Provenance, StopReason};
+use crate::framework::motion::JointStep;
 use crate::framework::recognition::Metric;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -34,6 +36,7 @@ document! {
         painted_percent: Option<f64>,
         goals: u32,
         largest_step: Option<JointStep>,
+        replay: Option<Replay>,
         digest: String,
         trajectory: Option<TrajectoryId>,
         trajectory_problem: Option<String>,
@@ -41,7 +44,7 @@ document! {
     }
     with { provenance: Tally, }
 }
-versions! { Run keeps RunView, "run", [with_constraints, with_largest_step] }
+versions! { Run keeps RunView, "run", [with_constraints, with_largest_step, with_replay] }
 
 /// Version 0 of the builds without constraints: every run was valid, and nothing was counted.
 fn with_constraints(mut run: Value) -> Value {
@@ -56,16 +59,38 @@ fn with_largest_step(mut run: Value) -> Value {
     run
 }
 
+/// Version 2 of the builds that did not replay their runs.
+fn with_replay(mut run: Value) -> Value {
+    complete(&mut run, "replay", Value::Null);
+    run
+}
+
 document! {
     /// All goals of a run.
     RunGoals keeps Goals {
         run: RunId,
         features: Vec<Feature>,
         joint_names: Vec<String>,
+        painted_cells: Option<CellSet>,
     }
-    each { goals: ReachedGoal, }
+    each { goals: ReachedGoal, path: KeptPose, }
 }
-versions! { RunGoals keeps Goals, "goals", [with_winners] }
+versions! { RunGoals keeps Goals, "goals", [with_winners, with_path] }
+
+/// Version 1 of the builds whose trajectories had one pose per goal.
+fn with_path(mut goals: Value) -> Value {
+    complete(&mut goals, "path", json!([]));
+    complete(&mut goals, "painted_cells", Value::Null);
+    goals
+}
+
+document! {
+    /// One pose of a run's path.
+    KeptPose keeps PathPose {
+        joints: Vec<f64>,
+        goals: Vec<u32>,
+    }
+}
 
 document! {
     /// One goal of a run.

@@ -119,7 +119,14 @@ pub(super) fn run(number: u128, job: &JobId, repetition: u32) -> NewRun {
         created_at: AT,
         ..RunView::sample()
     };
-    let goals = RunGoals { run: id, features: Vec::new(), joint_names: Vec::new(), goals: Vec::new() };
+    let goals = RunGoals {
+        run: id,
+        features: Vec::new(),
+        joint_names: Vec::new(),
+        goals: Vec::new(),
+        path: Vec::new(),
+        painted_cells: None,
+    };
     NewRun { view, goals, convergence: Vec::new(), trajectory: None, trials: KeptTrials::default() }
 }
 
