@@ -12,6 +12,7 @@ use crate::framework::execution::{Iet, ROBOT_TRIAL_S, RunResult, simulate};
 use crate::framework::motion::{Motion, deliver};
 use crate::framework::range::{Range, above};
 use crate::framework::trajectory::PlanSpec;
+use crate::framework::world::SimulatedRobot;
 use anyhow::Context as _;
 use figures::Figures;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -24,6 +25,8 @@ use std::path::PathBuf;
 struct Delivered {
     result: RunResult,
     motion: Motion,
+    /// The robot that stood for the real one; `None` if it was as described.
+    simulated_robot: Option<SimulatedRobot>,
 }
 
 /// Number of evaluations between updates of the progress bar.
@@ -136,9 +139,11 @@ fn one(seeded: &Seeded, seed: u64, bar: &ProgressBar) -> anyhow::Result<Delivere
         bar.inc((done - goals_done) as u64);
         goals_done = done;
     }
+    let reality = problem.execution.reality.as_ref().filter(|reality| reality.is_distorted());
+    let simulated_robot = reality.map(|reality| reality.robot(iet.chain(), seed));
     let result = iet.finish()?;
     let motion = deliver(&problem, &result, &PlanSpec::default())?;
-    Ok(Delivered { result, motion })
+    Ok(Delivered { result, motion, simulated_robot })
 }
 
 fn progress_bar(goals: u64) -> ProgressBar {

@@ -70,6 +70,7 @@ mod tests {
             .map(|k| Delivered {
                 result: RunResult { evaluations: 10 * k, discrepancy: k as f64, ..one.clone() },
                 motion: motion.clone(),
+                simulated_robot: None,
             })
             .collect();
         let figures = Figures::of(&runs, Some(4.0)).unwrap();

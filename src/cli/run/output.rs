@@ -7,6 +7,7 @@ use crate::framework::execution::{Chosen, Replay};
 use crate::framework::motion::Motion;
 use crate::framework::preset::Preset;
 use crate::framework::trajectory::export;
+use crate::framework::world::SimulatedRobot;
 use anyhow::Context as _;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -40,6 +41,9 @@ struct Run<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     painted_cells: Option<Vec<usize>>,
     replay: &'a Replay,
+    /// The robot that stood for the real one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulated_robot: Option<&'a SimulatedRobot>,
     /// Reason why there is no trajectory.
     trajectory_problem: Option<String>,
     goals: Vec<Goal>,
@@ -66,13 +70,14 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[Delivered], figures: Figu
         after: seeded.after.as_ref().map(|before| before.name.as_str()),
         runs: runs
             .iter()
-            .map(|Delivered { result: run, motion }| Run {
+            .map(|Delivered { result: run, motion, simulated_robot }| Run {
                 seed: run.seed,
                 evaluations: run.evaluations,
                 discrepancy: run.discrepancy,
                 painted_percent: motion.replay.painted_percent,
                 painted_cells: motion.cells.as_ref().map(|cells| cells.iter().collect()),
                 replay: &motion.replay,
+                simulated_robot: simulated_robot.as_ref(),
                 trajectory_problem: motion.trajectory.as_ref().err().map(ToString::to_string),
                 goals: run
                     .goals
@@ -103,7 +108,7 @@ pub(super) fn table(named: &Preset, runs: &[Delivered], figures: &Figures) -> St
     let unit = named.problem.goals.features().first().map_or("", |f| f.unit.as_str());
     let mut text = format!("{}: {}\n{}", named.name, named.description, method(named));
     let best = runs.iter().min_by(|a, b| a.result.discrepancy.total_cmp(&b.result.discrepancy));
-    let Some(Delivered { result: best, motion }) = best else { return text };
+    let Some(Delivered { result: best, motion, .. }) = best else { return text };
     if runs.len() > 1 {
         let _ = writeln!(text, "best of {} runs: seed {}", runs.len(), best.seed);
     }
@@ -173,7 +178,7 @@ fn effect(motion: &Motion, unit: &str) -> String {
 pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[Delivered]) -> anyhow::Result<()> {
     std::fs::create_dir_all(directory).with_context(|| format!("cannot create {}", directory.display()))?;
     let mut refused = 0;
-    for Delivered { result: run, motion } in runs {
+    for Delivered { result: run, motion, .. } in runs {
         let trajectory = match &motion.trajectory {
             Ok(trajectory) => trajectory,
             Err(error) => {

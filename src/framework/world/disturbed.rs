@@ -42,6 +42,16 @@ pub struct DisturbanceSpec {
     pub seed: Option<u64>,
 }
 
+/// Deviation of the robot that stands for the real one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SimulatedRobot {
+    /// Factor of each link's length: of the translation from each free joint to the next one, and from the last one to
+    /// the tool.
+    pub link_scales: Vec<f64>,
+    /// Shift of the base, metres, base frame.
+    pub base_shift_m: [f64; 3],
+}
+
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
@@ -52,6 +62,17 @@ impl DisturbanceSpec {
     #[must_use]
     pub fn is_distorted(&self) -> bool {
         self.link_share > 0.0 || self.base_shift_m > 0.0
+    }
+
+    /// The robot that stands for the real one in the run of `seed`.
+    #[must_use]
+    pub fn robot(&self, chain: &Chain, seed: u64) -> SimulatedRobot {
+        let mut random = RandomStream::of_run(self.seed.unwrap_or(seed), 0);
+        let mut off = || 2.0 * random.unit() - 1.0;
+        let link_scales = (0..chain.link_count()).map(|_| 1.0 + self.link_share * off()).collect();
+        let direction = nalgebra::Vector3::new(off(), off(), off());
+        let shift = direction.try_normalize(1e-9).unwrap_or_default() * self.base_shift_m;
+        SimulatedRobot { link_scales, base_shift_m: shift.into() }
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
@@ -77,12 +98,8 @@ pub fn build_disturbed(
     seed: u64,
 ) -> Result<Box<dyn World>, WorldError> {
     disturbance.check()?;
-    let mut random = RandomStream::of_run(disturbance.seed.unwrap_or(seed), 0);
-    let mut off = || 2.0 * random.unit() - 1.0;
-    let scales: Vec<f64> = (0..chain.link_count()).map(|_| 1.0 + disturbance.link_share * off()).collect();
-    let direction = nalgebra::Vector3::new(off(), off(), off());
-    let shift = direction.try_normalize(1e-9).unwrap_or_default() * disturbance.base_shift_m;
-    let inner = build(spec, &chain.distorted(&scales, shift.into()))?;
+    let SimulatedRobot { link_scales, base_shift_m } = disturbance.robot(chain, seed);
+    let inner = build(spec, &chain.distorted(&link_scales, base_shift_m))?;
     Ok(Box::new(Disturbed {
         effect: vec![0.0; inner.features().len()],
         inner,

@@ -14,7 +14,7 @@ mod tests;
 mod tool_distance;
 mod tool_position;
 
-pub use disturbed::{DisturbanceSpec, build_disturbed};
+pub use disturbed::{DisturbanceSpec, SimulatedRobot, build_disturbed};
 pub use error::WorldError;
 pub use properties::{Surface, WorldProperties};
 pub use spec::{CoverageSpec, SurfaceView, ToolDistanceSpec, ToolPositionSpec, WorldSpec};
