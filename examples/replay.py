@@ -95,10 +95,10 @@ def main(urdf, world, runs, directory):
             continue
         name = f"{runs['preset']}-{runs['method']}-{run['seed']}.json"
         trajectory = json.loads((Path(directory) / name).read_text())
-        painted, side, free = set(), None, trajectory["joints"]
+        painted, side, free = set(), None, [j for j in trajectory["joints"] if j not in trajectory["fixed_joints"]]
         robot = run.get("simulated_robot") or {"base_shift_m": [0, 0, 0], "link_scales": [1.0] * len(free)}
         for point in trajectory["points"]:
-            at = tool(path, dict(zip(free, point["positions"])) | trajectory["fixed_joints"], free, robot)
+            at = tool(path, dict(zip(trajectory["joints"], point["positions"])), free, robot)
             height = dot(normal, [a - o for a, o in zip(at, origin)])
             side = side or height
             points, behind = points + 1, behind + (height * side < 0)

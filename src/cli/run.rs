@@ -3,6 +3,7 @@
 mod dry_run;
 mod figures;
 mod output;
+mod planning;
 mod problem;
 mod reality;
 mod seeded;
@@ -63,6 +64,8 @@ pub struct RunArguments {
     /// Write each run's trajectory to this directory as CSV, JSON and ROS 2 JointTrajectory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    planning: planning::PlanningArguments,
     /// Print one JSON object on stdout.
     #[arg(long)]
     json: bool,
@@ -95,7 +98,7 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     let named = problem::read(&arguments.problem)?;
     let after = arguments.after.as_ref().map(|preset| problem::read_like(&arguments.problem, preset)).transpose()?;
     // Fails before any thread is started.
-    Iet::new(&named.problem, arguments.seed)?;
+    let iet = Iet::new(&named.problem, arguments.seed)?;
     let seeded = Seeded::new(named, after, arguments.random_start)?;
     let last = u64::from(arguments.repetitions - 1);
     arguments.seed.checked_add(last).context("the last repetition's seed exceeds 64 bits: give a smaller --seed")?;
@@ -104,10 +107,12 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
         let text = dry_run::report(&seeded, seed, repetitions, robot_trial_s, json)?;
         return Ok(std::io::stdout().lock().write_all(text.as_bytes())?);
     }
+    let planning = arguments.planning.spec();
+    planning.check(iet.chain())?;
     let seeds: Vec<u64> = (0..=last).map(|offset| arguments.seed + offset).collect();
-    let runs = search(&seeded, &seeds, arguments.threads)?;
+    let runs = search(&seeded, &seeds, &planning, arguments.threads)?;
     if let Some(directory) = &arguments.out {
-        output::write_trajectories(directory, &seeded.named, &runs)?;
+        output::write_trajectories(directory, &seeded.named, &runs, &arguments.planning.names())?;
     }
     let figures = Figures::of(&runs, arguments.threshold.or(seeded.named.threshold)).context("there were no runs")?;
     let text = if arguments.json {
@@ -120,15 +125,15 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
 }
 
 /// Executes all runs; the results are in the order of `seeds`.
-fn search(seeded: &Seeded, seeds: &[u64], threads: Option<u16>) -> anyhow::Result<Vec<Delivered>> {
+fn search(seeded: &Seeded, seeds: &[u64], planning: &PlanSpec, threads: Option<u16>) -> anyhow::Result<Vec<Delivered>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build()?;
     let bar = progress_bar((seeds.len() * seeded.named.problem.goals.len()) as u64);
-    let runs = pool.install(|| seeds.par_iter().map(|&seed| one(seeded, seed, &bar)).collect());
+    let runs = pool.install(|| seeds.par_iter().map(|&seed| one(seeded, seed, planning, &bar)).collect());
     bar.finish_and_clear();
     runs
 }
 
-fn one(seeded: &Seeded, seed: u64, bar: &ProgressBar) -> anyhow::Result<Delivered> {
+fn one(seeded: &Seeded, seed: u64, planning: &PlanSpec, bar: &ProgressBar) -> anyhow::Result<Delivered> {
     let problem = seeded.problem(seed)?;
     let mut iet = Iet::new(&problem, seed)?;
     let mut world = iet.world()?;
@@ -142,7 +147,7 @@ fn one(seeded: &Seeded, seed: u64, bar: &ProgressBar) -> anyhow::Result<Delivere
     let reality = problem.execution.reality.as_ref().filter(|reality| reality.is_distorted());
     let simulated_robot = reality.map(|reality| reality.robot(iet.chain(), seed));
     let result = iet.finish()?;
-    let motion = deliver(&problem, &result, &PlanSpec::default())?;
+    let motion = deliver(&problem, &result, planning)?;
     Ok(Delivered { result, motion, simulated_robot })
 }
 

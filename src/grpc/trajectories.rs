@@ -8,6 +8,7 @@ use super::files::{FileStream, send};
 use super::proto;
 use crate::app::App;
 use crate::app::model::{AppError, ErrorKind, limits};
+use crate::app::trajectories::export_names;
 use futures_util::StreamExt as _;
 use futures_util::stream::{BoxStream, iter};
 use proto::trajectory_service_server::TrajectoryService;
@@ -49,8 +50,9 @@ impl TrajectoryService for Service {
         request: Request<proto::ExportTrajectoryRequest>,
     ) -> Result<Response<FileStream>, Status> {
         let app = as_caller(&self.0, &request)?;
-        let proto::ExportTrajectoryRequest { id, format } = request.into_inner();
-        let file = app.export_trajectory(&resource(&id).map_err(status)?, &format).await.map_err(status)?;
+        let proto::ExportTrajectoryRequest { id, format, prefix, rename, omit_held } = request.into_inner();
+        let names = export_names(prefix, &rename, omit_held).map_err(status)?;
+        let file = app.export_trajectory(&resource(&id).map_err(status)?, &format, names).await.map_err(status)?;
         Ok(send(file))
     }
 }

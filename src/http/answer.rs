@@ -31,7 +31,7 @@ impl From<PageParameters> for PageQuery {
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub struct ExportParameters {
-    /// `csv` or `json`; for trajectories also `ros2`; for experiments `csv`, `full_csv` or `markdown`.
+    /// `csv` or `json`; for experiments `csv`, `full_csv` or `markdown`.
     pub format: String,
 }
 

@@ -42,6 +42,26 @@ fn differences(then: &Value, now: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
+/// Asserts that a trajectory of an earlier build is exported with its own points, and with the joints it holds.
+async fn assert_exported(server: &Server, then: &Value) {
+    let id = then["id"].as_str().unwrap();
+    let csv = server.text(&format!("/api/v1/trajectories/{id}:export?format=csv")).await;
+    let points = then["points"].as_array().unwrap();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines.len(), points.len() + 1, "{csv}");
+    assert!(lines[0].contains(",wrist_yaw_position,"), "{}", lines[0]);
+    for (line, point) in lines[1..].iter().zip(points) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |cell: &str| cell.parse::<f64>().unwrap();
+        assert_eq!(Some(number(cells[0])), point["t_s"].as_f64());
+        for (cell, position) in cells[1..].iter().zip(point["positions"].as_array().unwrap()) {
+            assert_eq!(Some(number(cell)), position.as_f64());
+        }
+    }
+    let goals = lines.iter().filter(|line| !line.ends_with(',')).count() - 1;
+    assert_eq!(goals, then["goal_times_s"].as_array().unwrap().len());
+}
+
 #[rstest]
 #[case("schema-0003")]
 #[case("schema-0004")]
@@ -65,6 +85,10 @@ async fn a_kept_database_reads_back_the_same_and_its_jobs_end_with_the_same_bits
         let text = server.text(&format!("/api/v1{path}")).await;
         let now = if then.is_string() { Value::String(text) } else { serde_json::from_str(&text).unwrap() };
         differences(then, &now, path, &mut found);
+    }
+    let trajectories = answers["answers"].as_object().unwrap().iter().filter(|(path, _)| path.ends_with("/trajectory"));
+    for (_, then) in trajectories {
+        assert_exported(&server, then).await;
     }
     assert!(found.is_empty(), "{} differences:\n{}", found.len(), found[..found.len().min(40)].join("\n"));
 

@@ -10,6 +10,7 @@ mod events;
 mod few_evaluations;
 mod health;
 mod jobs;
+mod joint_trajectory;
 mod main_job;
 mod paging;
 mod parity;

@@ -8,16 +8,16 @@ use crate::app::model::{
 use crate::app::ports::{
     Advance, Claimed, Experiments as _, Ids as _, KeptTrials, NewRun, Product, Queue as _, TestClock, Transition,
 };
-use crate::app::trajectories::{digest, plan_through};
+use crate::app::trajectories::{digest, points_of};
 use crate::framework::experiment::{RunId as Place, RunRow};
 use crate::framework::generalization::Weighting;
 use crate::framework::job::Event;
 use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::{Chain, RobotModel};
+use crate::framework::trajectory::{Waypoint, plan};
 use crate::reproduce::shipped;
 use serde_json::json;
-use std::collections::BTreeMap;
 use std::time::Duration;
 
 impl Bench {
@@ -116,20 +116,23 @@ impl Bench {
         });
         let goals: Vec<RunGoal> = goals.collect();
         let chain = Chain::new(&RobotModel::from_urdf(&work.problem.urdf).unwrap(), &work.problem.robot).unwrap();
-        let planned = plan_through(&chain, &vec![pose; goals.len()]).unwrap();
+        let way = Waypoint::goals(&vec![pose; goals.len()]);
+        let planned = plan(&chain, chain.home(), &way, None, &work.planning).unwrap();
+        let points = points_of(&planned);
         let trajectory = stored(TrajectoryView {
             id: TrajectoryId::from_uuid(self.ids.uuid()),
             run: id.clone(),
             job: claimed.job.id.clone(),
             robot: work.robot.clone(),
             joint_names: planned.joints().to_vec(),
-            fixed_joints: BTreeMap::new(),
+            fixed_joints: planned.fixed_joints().clone(),
             duration_s: planned.duration_s(),
-            points: Vec::new(),
-            goal_times_s: Vec::new(),
+            pose_times_s: planned.goal_times_s(),
+            goal_times_s: planned.goal_times_s(),
             tightest: Vec::new(),
             notes: Vec::new(),
-            sha256: digest(&planned),
+            sha256: digest(&points),
+            points,
             created_at: TestClock::START,
         });
         let count = goals.len();

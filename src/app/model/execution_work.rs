@@ -2,6 +2,7 @@
 
 use super::id::{ActionId, RobotId, WorldId};
 use crate::framework::execution::Problem;
+use crate::framework::trajectory::PlanSpec;
 use serde::{Deserialize, Serialize};
 
 /// A self-contained execution.
@@ -25,4 +26,7 @@ pub struct ExecutionWork {
     pub repetitions: u32,
     /// Slows the job down to about this many evaluations per second.
     pub max_evaluations_per_s: Option<f64>,
+    /// Choices for the trajectories of the runs.
+    #[serde(default, skip_serializing_if = "PlanSpec::is_default")]
+    pub planning: PlanSpec,
 }

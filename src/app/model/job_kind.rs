@@ -9,6 +9,7 @@ use crate::framework::execution::ExecutionSpec;
 use crate::framework::generalization::Weighting;
 use crate::framework::recognition::Metric;
 use crate::framework::tagged;
+use crate::framework::trajectory::PlanSpec;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -135,6 +136,9 @@ pub struct ExecutionRequest {
     /// newest first. If absent, they are looked up and recorded here; an empty list means none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub earlier_runs: Option<Vec<EarlierRun>>,
+    /// Choices for the trajectories of the runs; the defaults if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planning: Option<PlanSpec>,
 }
 
 /// A run whose trials another run starts from.

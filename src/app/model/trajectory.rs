@@ -26,7 +26,9 @@ pub struct TrajectoryView {
     pub duration_s: f64,
     /// Points in order of time; the first is at 0 s.
     pub points: Vec<TrajectoryPoint>,
-    /// Times at which the goals are reached, seconds from the start.
+    /// Times at which the poses of the run's path are reached, seconds from the start.
+    pub pose_times_s: Vec<f64>,
+    /// Times at which the goals are reached, seconds from the start; of goals that one pose serves, the same.
     pub goal_times_s: Vec<f64>,
     /// The most used limit of each kind.
     pub tightest: Vec<Tightest>,

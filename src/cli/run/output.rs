@@ -6,7 +6,7 @@ use super::seeded::Seeded;
 use crate::framework::execution::{Chosen, Replay};
 use crate::framework::motion::Motion;
 use crate::framework::preset::Preset;
-use crate::framework::trajectory::export;
+use crate::framework::trajectory::export::{ExportSpec, Exported};
 use crate::framework::world::SimulatedRobot;
 use anyhow::Context as _;
 use serde::Serialize;
@@ -174,8 +174,13 @@ fn effect(motion: &Motion, unit: &str) -> String {
     text
 }
 
-/// Writes each run's trajectory in three formats.
-pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[Delivered]) -> anyhow::Result<()> {
+/// Writes each run's trajectory in three formats, with the joints' names of `names`.
+pub(super) fn write_trajectories(
+    directory: &Path,
+    named: &Preset,
+    runs: &[Delivered],
+    names: &ExportSpec,
+) -> anyhow::Result<()> {
     std::fs::create_dir_all(directory).with_context(|| format!("cannot create {}", directory.display()))?;
     let mut refused = 0;
     for Delivered { result: run, motion, .. } in runs {
@@ -187,12 +192,11 @@ pub(super) fn write_trajectories(directory: &Path, named: &Preset, runs: &[Deliv
                 continue;
             }
         };
+        let exported = Exported::new(trajectory, names)?;
         let stem = format!("{}-{}-{}", named.name, named.problem.execution.method.name(), run.seed);
-        for (ending, text) in [
-            ("csv", export::csv(trajectory)),
-            ("json", export::json(trajectory)?),
-            ("ros2.yaml", export::ros2_joint_trajectory(trajectory)),
-        ] {
+        for (ending, text) in
+            [("csv", exported.csv()), ("json", exported.json()?), ("ros2.yaml", exported.ros2_joint_trajectory())]
+        {
             let path = directory.join(format!("{stem}.{ending}"));
             std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
         }

@@ -61,6 +61,7 @@ fn is_same_robot(one: &Problem, other: &Problem) -> bool {
         limits: one.robot.limits.clone(),
         home: one.robot.home.clone(),
         acceleration: one.robot.acceleration.clone(),
+        jerk: one.robot.jerk.clone(),
         ..other.robot.clone()
     };
     one.urdf == other.urdf && one.robot == there && one.world == other.world

@@ -165,6 +165,7 @@ async fn execute(
         repetitions: 1,
         max_evaluations_per_s: Some(scene.evaluations_per_s),
         earlier_runs: None,
+        planning: None,
     };
     app.create_job(CreateJob::Execution(Box::new(request)), None).await.map(drop)
 }

@@ -6,7 +6,8 @@ use cgda_core::demonstration::{ReadOptions, read};
 use cgda_core::execution::{Problem, run};
 use cgda_core::generalization::{GeneralizeSpec, generalize};
 use cgda_core::robot::{Chain, RobotModel, RobotSpec};
-use cgda_core::trajectory::{PlanSpec, export, plan};
+use cgda_core::trajectory::export::{ExportSpec, Exported};
+use cgda_core::trajectory::{PlanSpec, Waypoint, plan};
 use cgda_core::world::{ToolPositionSpec, WorldSpec};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -56,10 +57,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A smoke check with room to spare; the tests of the crate hold exact figures.
     assert!(found.evaluations < 40 && found.discrepancy < 0.1);
 
-    // A trajectory within the limits of position, velocity and acceleration, ready for a controller.
+    // A trajectory within the limits of position, velocity, acceleration and jerk, ready for a controller.
     let chain = Chain::new(&RobotModel::from_urdf(urdf)?, &robot)?;
     let poses: Vec<Vec<f64>> = found.goals.iter().map(|goal| goal.joints.clone()).collect();
-    let trajectory = plan(&chain, chain.home(), &poses, &PlanSpec::default())?;
-    print!("{}", export::csv(&trajectory));
+    let trajectory = plan(&chain, chain.home(), &Waypoint::goals(&poses), None, &PlanSpec::default())?;
+    print!("{}", Exported::new(&trajectory, &ExportSpec::default())?.csv());
     Ok(())
 }

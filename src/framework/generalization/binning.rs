@@ -48,7 +48,7 @@ pub fn generalize(demonstrations: &[Demonstration], spec: &GeneralizeSpec) -> Re
         }
     }
     Ok(Generalized {
-        goals: Goals::new(features, &rows)?,
+        goals: Goals::new(features, &rows)?.spaced(Some(mean_duration_s / n as f64)),
         spread,
         durations_s,
         mean_duration_s,

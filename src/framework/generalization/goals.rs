@@ -1,6 +1,7 @@
 //! The generalized action's matrix X: n intermediate goals of m features.
 
 use crate::Feature;
+use crate::range::above;
 use serde::{Deserialize, Serialize};
 
 /// n goals (rows) x m features (columns), finite, at least 1 x 1.
@@ -9,6 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Goals {
     features: Vec<Feature>,
     values: Vec<f64>,
+    interval_s: Option<f64>,
 }
 
 /// Reasons why rows do not form a matrix of goals.
@@ -61,7 +63,20 @@ impl Goals {
                 return Err(GoalsError::NonFinite { goal, feature: f.name.clone(), value });
             }
         }
-        Ok(Self { values: rows.concat(), features })
+        Ok(Self { values: rows.concat(), features, interval_s: None })
+    }
+
+    /// The same goals, `interval_s` apart in their demonstrations; `None` if that is unknown. An interval that is not
+    /// above 0 and finite counts as unknown.
+    #[must_use]
+    pub fn spaced(self, interval_s: Option<f64>) -> Self {
+        Self { interval_s: interval_s.filter(|interval| above(0.0).contains(*interval)), ..self }
+    }
+
+    /// Time between two goals of the demonstrations, s; `None` if it is unknown.
+    #[must_use]
+    pub fn interval_s(&self) -> Option<f64> {
+        self.interval_s
     }
 
     /// The m features, in column order.
@@ -102,23 +117,29 @@ impl Goals {
     }
 }
 
-/// Serialized form of [`Goals`]: n rows with one value per feature.
+/// Serialized form of [`Goals`]: n rows with one value per feature, and the interval if it is known.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawGoals {
     features: Vec<Feature>,
     goals: Vec<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    interval_s: Option<f64>,
 }
 
 impl TryFrom<RawGoals> for Goals {
     type Error = GoalsError;
     fn try_from(raw: RawGoals) -> Result<Self, GoalsError> {
-        Self::new(raw.features, &raw.goals)
+        Ok(Self::new(raw.features, &raw.goals)?.spaced(raw.interval_s))
     }
 }
 
 impl From<Goals> for RawGoals {
     fn from(goals: Goals) -> Self {
-        Self { goals: goals.rows().map(<[f64]>::to_vec).collect(), features: goals.features }
+        Self {
+            goals: goals.rows().map(<[f64]>::to_vec).collect(),
+            interval_s: goals.interval_s,
+            features: goals.features,
+        }
     }
 }

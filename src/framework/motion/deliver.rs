@@ -3,9 +3,9 @@
 use super::equivalent::nearest;
 use super::step::{JointStep, largest_step};
 use crate::CellSet;
-use crate::execution::{Moves, Problem, ProblemError, Replay, Replayed, RunResult, SAMPLES_PER_MOVE, replay};
+use crate::execution::{Moves, PathPose, Problem, ProblemError, Replay, Replayed, RunResult, SAMPLES_PER_MOVE, replay};
 use crate::robot::{Chain, RobotModel};
-use crate::trajectory::{CheckedTrajectory, PlanSpec, Point, TrajectoryError, plan};
+use crate::trajectory::{CheckedTrajectory, PlanSpec, TrajectoryError, Waypoint, plan};
 
 /// The motion of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Motion {
     pub poses: Vec<Vec<f64>>,
     /// The trajectory from home through the poses, or the reason why there is none.
     pub trajectory: Result<CheckedTrajectory, MotionError>,
+    /// Times at which the poses are reached, seconds; empty if there is no trajectory.
+    pub pose_times_s: Vec<f64>,
     /// Largest move of one joint between successive poses; `None` if there are no poses.
     pub largest_step: Option<JointStep>,
     /// The effect of the motion, beside that which the run claims.
@@ -41,36 +43,39 @@ pub fn deliver(problem: &Problem, result: &RunResult, planning: &PlanSpec) -> Re
     let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
     let found: Vec<Vec<f64>> = result.path.iter().map(|pose| pose.joints.clone()).collect();
     let poses = nearest(&chain, chain.home(), &found);
-    let mut trajectory = plan(&chain, chain.home(), &poses, planning).map_err(MotionError::from);
-    let between = trajectory.as_ref().map_or_else(|_| Vec::new(), |trajectory| between(trajectory.points()));
+    let way: Vec<Waypoint> = result.path.iter().zip(&poses).map(waypoint).collect();
+    let interval_s = problem.goals.interval_s();
+    let mut trajectory = plan(&chain, chain.home(), &way, interval_s, planning).map_err(MotionError::from);
+    let pose_times_s = trajectory.as_ref().map_or_else(|_| Vec::new(), |trajectory| pose_times_s(trajectory, &way));
+    let between = trajectory.as_ref().map_or_else(|_| Vec::new(), |planned| between(planned, &pose_times_s));
     let Replayed { replay, cells } = replay(problem, result, Moves { poses: &poses, between: &between })?;
     if let (false, Some(difference)) = (replay.agrees, &replay.largest_difference) {
         trajectory = Err(MotionError::Replay(difference.to_string()));
     }
     let largest_step = largest_step(&chain, &result.path, &poses);
-    Ok(Motion { poses, largest_step, trajectory, replay, cells })
+    Ok(Motion { pose_times_s, poses, largest_step, trajectory, replay, cells })
 }
 
-/// For each waypoint but the first, poses at even times on the way to it.
-fn between(points: &[Point]) -> Vec<Vec<Vec<f64>>> {
-    let times: Vec<f64> = points.iter().filter(|point| point.waypoint.is_some()).map(|point| point.time_s).collect();
+/// The arm rests at each pose of the path.
+fn waypoint((found, joints): (&PathPose, &Vec<f64>)) -> Waypoint {
+    Waypoint { joints: joints.clone(), goal: found.goals.last().copied(), rest: true }
+}
+
+fn pose_times_s(trajectory: &CheckedTrajectory, way: &[Waypoint]) -> Vec<f64> {
+    let reached = trajectory.waypoint_times_s().iter().zip(way);
+    reached.filter(|(_, waypoint)| waypoint.rest).map(|(time_s, _)| *time_s).collect()
+}
+
+/// For each pose but the first, poses at even times on the way to it, which end with it.
+fn between(trajectory: &CheckedTrajectory, pose_times_s: &[f64]) -> Vec<Vec<Vec<f64>>> {
     let samples = |ends: &[f64]| {
         let at = |step: usize| {
             let share = step as f64 / SAMPLES_PER_MOVE as f64;
-            position_at(points, ends[0] + (ends[1] - ends[0]) * share)
+            trajectory.positions_at(ends[0] + (ends[1] - ends[0]) * share)
         };
         (1..=SAMPLES_PER_MOVE).map(at).collect()
     };
-    times.windows(2).map(samples).collect()
-}
-
-/// Joints at `time_s`, on the line between the samples around it.
-fn position_at(points: &[Point], time_s: f64) -> Vec<f64> {
-    let after = points.partition_point(|point| point.time_s < time_s).min(points.len() - 1);
-    let (from, to) = (&points[after.saturating_sub(1)], &points[after]);
-    let span = to.time_s - from.time_s;
-    let share = if span > 0.0 { ((time_s - from.time_s) / span).min(1.0) } else { 1.0 };
-    from.positions.iter().zip(&to.positions).map(|(a, b)| if share < 1.0 { a + (b - a) * share } else { *b }).collect()
+    pose_times_s.windows(2).map(samples).collect()
 }
 
 #[cfg(test)]

@@ -4,12 +4,9 @@
 //! the turns: joints turn independently of one another, and the cost of a move is the time that the joint takes at its
 //! velocity limit, so that the sum over the joints and the moves is least.
 
-use crate::robot::{Chain, Gene, JointKind};
+use crate::robot::{Chain, Gene};
 use crate::trajectory::DEFAULT_VELOCITY;
 use std::f64::consts::TAU;
-
-/// Turns tried on either side of a joint that has no limits.
-const TURNS: i32 = 2;
 
 /// `poses` (joints in gene order, rad or m) with each joint moved by whole turns within its range, so that the motion
 /// from `start` through all of them is least. Poses whose joints have less than a turn of freedom stay bit for bit.
@@ -62,32 +59,23 @@ fn first_least(row: &[(f64, usize)]) -> usize {
     (0..row.len()).reduce(|best, index| if row[index].0 < row[best].0 { index } else { best }).unwrap_or(0)
 }
 
-/// Whole turns that keep `position` within the range of `gene`; no turn comes first. A continuous joint whose range is
-/// one turn has no limits: its range only bounds the search.
+/// Whole turns that keep `position` within the range of `gene`; no turn comes first.
 fn turns(gene: &Gene, position: f64) -> Vec<i32> {
-    let (lower, upper) = if is_endless(gene) {
-        (position - f64::from(TURNS) * TAU, position + f64::from(TURNS) * TAU)
-    } else {
-        (gene.lower, gene.upper)
-    };
+    let [lower, upper] = gene.motion_range();
     let most = ((upper - lower) / TAU).ceil().min(1e3) as i32;
     let inside = |turn: &i32| (lower..=upper).contains(&(position + f64::from(*turn) * TAU));
     let others = (1..=most).flat_map(|turn| [-turn, turn]).filter(inside);
     std::iter::once(0).chain(others).collect()
 }
 
-/// Whether the joint turns without end.
-pub(super) fn is_endless(gene: &Gene) -> bool {
-    gene.kind == JointKind::Continuous && gene.upper - gene.lower >= TAU
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::JointKind;
     use proptest::prelude::*;
 
     fn gene(kind: JointKind, lower: f64, upper: f64) -> Gene {
-        Gene { name: "j".to_owned(), kind, lower, upper, velocity: Some(2.0), acceleration: None }
+        Gene { name: "j".to_owned(), kind, lower, upper, velocity: Some(2.0), acceleration: None, jerk: None }
     }
 
     #[test]

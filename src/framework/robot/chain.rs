@@ -12,7 +12,7 @@ use crate::range::{Range, above};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// One free joint, which the optimiser moves.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,6 +32,23 @@ pub struct Gene {
     /// Acceleration limit, rad/s^2 or m/s^2; `None` if the robot's description has none.
     #[cfg_attr(feature = "schema", schema(required = true))]
     pub acceleration: Option<f64>,
+    /// Jerk limit, rad/s^3 or m/s^3; absent if the robot's description has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<f64>,
+}
+
+/// Turns beyond its range, on either side, that a motion may take a joint that turns without end.
+const SPARE_TURNS: f64 = 2.0;
+
+impl Gene {
+    /// Range within which a motion may hold the joint, rad or m: its limits. A continuous joint whose range is a whole turn
+    /// turns without end: its range only bounds the search, and a motion may go two turns beyond it.
+    #[must_use]
+    pub fn motion_range(&self) -> [f64; 2] {
+        let is_endless = self.kind == JointKind::Continuous && self.upper - self.lower >= TAU;
+        let spare = if is_endless { SPARE_TURNS * TAU } else { 0.0 };
+        [self.lower - spare, self.upper + spare]
+    }
 }
 
 /// One moving joint between base and tip.
@@ -261,7 +278,8 @@ fn check_names(model: &RobotModel, spec: &RobotSpec, movable: &[usize]) -> Resul
     let fixed = spec.fixed.keys().map(|n| ("fixed", n));
     let limits = spec.limits.keys().map(|n| ("limits", n));
     let acceleration = spec.acceleration.keys().map(|n| ("acceleration", n));
-    for (role, name) in listed.chain(fixed).chain(limits).chain(acceleration) {
+    let jerk = spec.jerk.keys().map(|n| ("jerk", n));
+    for (role, name) in listed.chain(fixed).chain(limits).chain(acceleration).chain(jerk) {
         if !names().any(|n| n == *name) {
             return Err(ChainError::UnknownJoint { role, joint: name.clone(), movable: names().collect() });
         }
@@ -352,10 +370,12 @@ fn gene(model: &RobotModel, spec: &RobotSpec, path: &[usize], index: usize) -> R
     if lower > upper {
         return Err(ChainError::LimitOrder { joint: joint.name.clone(), lower, upper });
     }
-    let acceleration = spec.acceleration.get(&joint.name).copied();
-    if let Some(value) = acceleration {
+    let stated = |parameter, unit, by_joint: &BTreeMap<String, f64>| {
+        let Some(&value) = by_joint.get(&joint.name) else { return Ok(None) };
         let wrong = |number| ChainError::Joint { joint: joint.name.clone(), number };
-        above(0.0).check("acceleration", Some("rad/s^2 or m/s^2"), value).map_err(wrong)?;
-    }
-    Ok(Gene { name: joint.name.clone(), kind: joint.kind, lower, upper, velocity, acceleration })
+        above(0.0).check(parameter, Some(unit), value).map_err(wrong).map(|()| Some(value))
+    };
+    let acceleration = stated("acceleration", "rad/s^2 or m/s^2", &spec.acceleration)?;
+    let jerk = stated("jerk", "rad/s^3 or m/s^3", &spec.jerk)?;
+    Ok(Gene { name: joint.name.clone(), kind: joint.kind, lower, upper, velocity, acceleration, jerk })
 }

@@ -209,7 +209,7 @@ pub enum ChainError {
     /// A joint named in the description does not move this chain.
     #[error("{role} names joint {joint:?}, which does not move this chain; movable joints are {movable:?}")]
     UnknownJoint {
-        /// `free_joints`, `fixed`, `limits`, `acceleration` or `home`.
+        /// `free_joints`, `fixed`, `limits`, `acceleration`, `jerk` or `home`.
         role: &'static str,
         /// Name given.
         joint: String,

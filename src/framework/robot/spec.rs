@@ -23,6 +23,9 @@ pub struct RobotSpec {
     pub limits: BTreeMap<String, [f64; 2]>,
     /// Acceleration limits (rad/s^2 or m/s^2) by joint; a URDF has none.
     pub acceleration: BTreeMap<String, f64>,
+    /// Jerk limits (rad/s^3 or m/s^3) by joint; a URDF has none.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub jerk: BTreeMap<String, f64>,
     /// Positions of free joints before the first motion (rad or m), by joint. Trajectories and the identification moves
     /// of an unknown robot start there. Joints not named start at 0, clamped to their limits.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]

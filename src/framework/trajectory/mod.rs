@@ -1,16 +1,33 @@
 //! Trajectories: waypoints joined into a time-parameterised joint motion, checked, exported.
 //!
 //! # Architecture Invariants
-//! - A [`CheckedTrajectory`] exists only if it is finite, its time increases, it starts and ends at rest, and every
-//!   sample and segment respects the position, velocity and acceleration limits of its chain.
+//! - A [`CheckedTrajectory`] exists only if it is finite, its time increases, it starts and ends at rest, its position,
+//!   velocity and acceleration are continuous, and every extremum of its polynomials respects the position, velocity,
+//!   acceleration and jerk limits of its chain.
+//! - It passes each waypoint exactly, in the order given.
 
+mod blend;
+mod check;
 mod checked;
+mod error;
 pub mod export;
+mod limits;
+mod piece;
 mod plan;
+mod polynomial;
+mod profile;
+mod spec;
 #[cfg(test)]
 mod tests;
+mod timing;
 
-pub(crate) use checked::JointLimits;
-pub use checked::{CheckedTrajectory, LimitKind, Point, Tightest, TrajectoryError};
-pub use plan::{DEFAULT_ACCELERATION, DEFAULT_VELOCITY, PlanSpec, plan};
-pub(crate) use plan::{late, limits};
+pub use check::check_stored;
+pub use checked::{CheckedTrajectory, LimitKind, Point, Tightest};
+pub use error::TrajectoryError;
+pub use limits::{DEFAULT_ACCELERATION, DEFAULT_JERK, DEFAULT_VELOCITY};
+pub(crate) use limits::{JointLimits, limits};
+pub use piece::{Piece, State};
+pub(crate) use plan::late;
+pub use plan::{Waypoint, plan};
+pub use polynomial::Polynomial;
+pub use spec::{MotionLimits, PlanError, PlanSpec, Timing};

@@ -194,7 +194,7 @@ mod tests {
     use super::*;
     use crate::preset::shipped;
     use crate::robot::RobotModel;
-    use crate::trajectory::{PlanSpec, plan};
+    use crate::trajectory::{PlanSpec, Waypoint, plan};
     use rstest::rstest;
 
     fn wax() -> (WorldSpec, Chain) {
@@ -215,8 +215,9 @@ mod tests {
     #[test]
     fn a_late_observation_shows_the_arm_on_its_way_from_home() {
         let (_, chain) = wax();
-        let spec = PlanSpec { dwell_s: 0.0, ..PlanSpec::default() };
-        let duration_s = plan(&chain, chain.home(), &[POSE.to_vec()], &spec).unwrap().duration_s();
+        let spec = PlanSpec { speed: 1.0, acceleration: 1.0, ..PlanSpec::default() };
+        let way = Waypoint::goals(&[POSE.to_vec()]);
+        let duration_s = plan(&chain, chain.home(), &way, None, &spec).unwrap().duration_s();
         let late = |latency_s, settle_s| DisturbanceSpec { latency_s, settle_s, ..DisturbanceSpec::default() };
         let exact = observed(&DisturbanceSpec::default(), 1, &POSE);
         assert_eq!(observed(&late(0.2, 0.2), 1, &POSE), exact);

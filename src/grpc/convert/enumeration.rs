@@ -12,7 +12,7 @@ use crate::framework::method::whole_run::Prior;
 use crate::framework::method::{Effects, Scope, SimulatorUse};
 use crate::framework::recognition::Metric;
 use crate::framework::robot::JointKind;
-use crate::framework::trajectory::LimitKind;
+use crate::framework::trajectory::{LimitKind, Timing};
 use crate::framework::world::SurfaceView;
 use crate::grpc::proto;
 
@@ -94,7 +94,8 @@ enumerations! {
     }
     JobKind = JobKind, "a kind of job" { Generalization, Execution, Experiment }
     JointKind = JointKind, "a kind of joint" { Revolute, Continuous, Prismatic, Fixed, Floating, Planar, Spherical }
-    LimitKind = LimitKind, "a kind of limit" { Position, Velocity, Acceleration }
+    LimitKind = LimitKind, "a kind of limit" { Position, Velocity, Acceleration, Jerk }
+    Timing = PlanTiming, "a timing" { Limits, Demonstration }
     Format = UploadFormat, "a format of files" { Csv, Yarp, Json }
     ClockPolicy = ClockPolicy, "a clock policy" { AsRecorded, AlignByStart }
     Severity = Severity, "a severity" { Error, Warning }

@@ -18,6 +18,7 @@ pub mod file;
 pub mod job;
 mod json;
 mod method;
+mod planning;
 pub mod recognition;
 pub mod robot;
 mod run;

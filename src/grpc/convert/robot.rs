@@ -17,7 +17,8 @@ pub fn create(request: proto::CreateRobotRequest) -> Result<CreateRobot, AppErro
 }
 
 fn spec(spec: proto::RobotSpec) -> Result<RobotSpec, AppError> {
-    let proto::RobotSpec { base_link, tip_link, free_joints, fixed, tool_offset_m, limits, acceleration, home } = spec;
+    let proto::RobotSpec { base_link, tip_link, free_joints, fixed, tool_offset_m, limits, acceleration, home, jerk } =
+        spec;
     let limit = |(joint, proto::JointLimits { lower, upper }): (String, proto::JointLimits)| {
         let pointer = format!("/spec/limits/{joint}");
         Ok((joint, [finite(&pointer, lower)?, finite(&pointer, upper)?]))
@@ -30,6 +31,7 @@ fn spec(spec: proto::RobotSpec) -> Result<RobotSpec, AppError> {
         tool_offset_m: if tool_offset_m.is_empty() { [0.0; 3] } else { triple("/spec/tool_offset_m", &tool_offset_m)? },
         limits: limits.into_iter().map(limit).collect::<Result<_, AppError>>()?,
         acceleration: values("/spec/acceleration", acceleration)?,
+        jerk: values("/spec/jerk", jerk)?,
         home: values("/spec/home", home)?,
     })
 }
@@ -41,7 +43,8 @@ fn values(pointer: &str, values: BTreeMap<String, f64>) -> Result<BTreeMap<Strin
 
 impl From<RobotSpec> for proto::RobotSpec {
     fn from(spec: RobotSpec) -> Self {
-        let RobotSpec { base_link, tip_link, free_joints, fixed, tool_offset_m, limits, acceleration, home } = spec;
+        let RobotSpec { base_link, tip_link, free_joints, fixed, tool_offset_m, limits, acceleration, home, jerk } =
+            spec;
         Self {
             base_link,
             tip_link,
@@ -50,6 +53,7 @@ impl From<RobotSpec> for proto::RobotSpec {
             tool_offset_m: tool_offset_m.to_vec(),
             limits: limits.into_iter().map(|(joint, limits)| (joint, limits.into())).collect(),
             acceleration,
+            jerk,
             home,
         }
     }
@@ -86,8 +90,8 @@ impl From<ChainSummary> for proto::ChainSummary {
 
 impl From<Gene> for proto::FreeJoint {
     fn from(joint: Gene) -> Self {
-        let Gene { name, kind, lower, upper, velocity, acceleration } = joint;
-        Self { name, kind: kind.number(), lower, upper, velocity, acceleration }
+        let Gene { name, kind, lower, upper, velocity, acceleration, jerk } = joint;
+        Self { name, kind: kind.number(), lower, upper, velocity, acceleration, jerk }
     }
 }
 
@@ -128,6 +132,7 @@ mod tests {
             tool_offset_m: [0.0, 0.1, -0.2],
             limits: BTreeMap::from([("a".to_owned(), [-1.0, 2.0])]),
             acceleration: BTreeMap::from([("a".to_owned(), 3.0)]),
+            jerk: BTreeMap::from([("a".to_owned(), 30.0)]),
             home: BTreeMap::from([("b".to_owned(), 0.4)]),
         };
         for before in [full, RobotSpec::default()] {

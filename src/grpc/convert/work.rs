@@ -1,7 +1,9 @@
 //! Conversion of a job's work: requests in both directions.
 
 use super::enumeration::{Enumeration as _, or_default};
-use super::{constraint, experiment, finite, finite_or_none, list, method, reference, references, required, text};
+use super::{
+    constraint, experiment, finite, finite_or_none, list, method, planning, reference, references, required, text,
+};
 use crate::app::model::{AppError, CreateJob, EarlierRun, ExecutionRequest, GeneralizationRequest};
 use crate::framework::constraint::HandlingSpec;
 use crate::framework::execution::{Chosen, ExecutionSpec};
@@ -49,6 +51,7 @@ fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
         repetitions,
         max_evaluations_per_s,
         earlier_runs,
+        planning,
     } = work;
     Ok(ExecutionRequest {
         name: name.and_then(text),
@@ -60,6 +63,7 @@ fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
         repetitions: if repetitions == 0 { 1 } else { repetitions },
         max_evaluations_per_s: finite_or_none("/max_evaluations_per_s", max_evaluations_per_s)?,
         earlier_runs: earlier_runs.map(earlier).transpose()?,
+        planning: planning.map(planning::spec).transpose()?,
     })
 }
 
@@ -170,6 +174,7 @@ impl From<ExecutionRequest> for proto::Execution {
             repetitions,
             max_evaluations_per_s,
             earlier_runs,
+            planning,
         } = work;
         Self {
             name,
@@ -181,6 +186,7 @@ impl From<ExecutionRequest> for proto::Execution {
             repetitions,
             max_evaluations_per_s,
             earlier_runs: earlier_runs.map(|runs| proto::EarlierRuns { runs: super::all(runs) }),
+            planning: planning.map(Into::into),
         }
     }
 }
@@ -277,6 +283,8 @@ mod tests {
         full["seed"] = json!(7);
         full["repetitions"] = json!(3);
         full["max_evaluations_per_s"] = json!(10.5);
+        full["planning"] = json!({"speed": 0.25, "acceleration": 0.75, "dwell_s": 0.0, "blend": true,
+            "timing": "demonstration", "sample_s": 0.01, "joint_limits": {"elbow": {"velocity": 1.5, "jerk": 30.0}}});
         full["earlier_runs"] = json!([{"run": format!("run_{id}"), "job": format!("job_{id}"), "trials": 12}]);
         for json in [
             json!({"kind": "generalization", "name": "wax", "demonstrations": [format!("dem_{id}")],

@@ -4,6 +4,7 @@ use super::schemas::Schemas;
 use crate::app::model::limits;
 use crate::framework::method::{Parameter, Values, catalogue};
 use crate::framework::range::Range;
+use crate::framework::trajectory::PlanSpec;
 use serde_json::{Map, Value, json};
 use std::ops::RangeInclusive;
 
@@ -28,6 +29,10 @@ fn properties() -> Vec<Row> {
         ("ExecutionRequest", "repetitions", numbers(&limits::REPETITIONS)),
         ("ExecutionRequest", "seed", seed.clone()),
         ("ExecutionRequest", "max_evaluations_per_s", json!({"minimum": limits::MIN_EVALUATIONS_PER_S})),
+        ("PlanSpec", "speed", range_keywords(&PlanSpec::SHARE)),
+        ("PlanSpec", "acceleration", range_keywords(&PlanSpec::SHARE)),
+        ("PlanSpec", "dwell_s", range_keywords(&PlanSpec::DWELL_S)),
+        ("PlanSpec", "sample_s", range_keywords(&PlanSpec::SAMPLE_S)),
         ("ExperimentRequest", "name", name),
         ("ExperimentRequest", "repetitions", numbers(&(1..=limits::MAX_EXPERIMENT_RUNS))),
     ]

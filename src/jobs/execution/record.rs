@@ -2,14 +2,14 @@
 
 use crate::app::model::{
     ConvergencePoint, ExecutionWork, JobId, PathPose, RunGoal, RunGoals, RunId, RunView, Timestamp, TrajectoryId,
-    TrajectoryPoint, TrajectoryView,
+    TrajectoryView,
 };
 use crate::app::ports::{KeptTrials, NewRun};
-use crate::app::trajectories::digest;
+use crate::app::trajectories::{digest, points_of};
 use crate::framework::distance::distance;
 use crate::framework::execution::{self, Iet, ProblemError, RunResult};
 use crate::framework::motion::{Motion, deliver};
-use crate::framework::trajectory::{CheckedTrajectory, PlanSpec};
+use crate::framework::trajectory::CheckedTrajectory;
 use uuid::Uuid;
 
 /// Ids and time of a repetition's results.
@@ -35,11 +35,11 @@ pub(super) fn finished_run(
     let trials = KeptTrials { setup_key: work.setup_key.clone(), trials: iet.log().to_vec() };
     let result = iet.finish()?;
     let id = RunId::from_uuid(marks.run);
-    let Motion { poses, trajectory, largest_step, replay, cells } =
-        deliver(&work.problem, &result, &PlanSpec::default())?;
+    let Motion { poses, trajectory, pose_times_s, largest_step, replay, cells } =
+        deliver(&work.problem, &result, &work.planning)?;
     let path: Vec<PathPose> = result.path.iter().zip(poses).map(path_pose).collect();
     let (trajectory, trajectory_problem) = match trajectory {
-        Ok(planned) => (Some(stored_trajectory(&planned, &path, &id, work, job, marks)), None),
+        Ok(planned) => (Some(stored_trajectory((&planned, pose_times_s), &path, &id, work, job, marks)), None),
         Err(why) => (None, Some(why.to_string())),
     };
     let view = RunView {
@@ -82,20 +82,19 @@ fn path_pose((found, joints): (&execution::PathPose, Vec<f64>)) -> PathPose {
 }
 
 /// Times at which the goals are served, in order of the goals.
-fn goal_times_s(planned: &CheckedTrajectory, path: &[PathPose]) -> Vec<f64> {
-    let reached = planned.points().iter().filter(|point| point.waypoint.is_some()).zip(path);
-    reached.flat_map(|(point, pose)| pose.goals.iter().map(|_| point.time_s)).collect()
+fn goal_times_s(pose_times_s: &[f64], path: &[PathPose]) -> Vec<f64> {
+    pose_times_s.iter().zip(path).flat_map(|(time_s, pose)| pose.goals.iter().map(|_| *time_s)).collect()
 }
 
 fn stored_trajectory(
-    planned: &CheckedTrajectory,
+    (planned, pose_times_s): (&CheckedTrajectory, Vec<f64>),
     path: &[PathPose],
     run: &RunId,
     work: &ExecutionWork,
     job: &JobId,
     marks: Marks,
 ) -> TrajectoryView {
-    let points = planned.points();
+    let points = points_of(planned);
     TrajectoryView {
         id: TrajectoryId::from_uuid(marks.trajectory),
         run: run.clone(),
@@ -104,19 +103,12 @@ fn stored_trajectory(
         joint_names: planned.joints().to_vec(),
         fixed_joints: planned.fixed_joints().clone(),
         duration_s: planned.duration_s(),
-        goal_times_s: goal_times_s(planned, path),
+        goal_times_s: goal_times_s(&pose_times_s, path),
+        pose_times_s,
         tightest: planned.tightest().to_vec(),
         notes: planned.notes().to_vec(),
-        sha256: digest(planned),
-        points: points
-            .iter()
-            .map(|point| TrajectoryPoint {
-                t_s: point.time_s,
-                positions: point.positions.clone(),
-                velocities: point.velocities.clone(),
-                accelerations: point.accelerations.clone(),
-            })
-            .collect(),
+        sha256: digest(&points),
+        points,
         created_at: marks.created_at,
     }
 }

@@ -12,6 +12,7 @@ use crate::app::ports::{
 use crate::framework::execution::{self, Observations, Problem, simulated_world};
 use crate::framework::job::State;
 use crate::framework::method::per_goal::Provenance;
+use crate::framework::trajectory::PlanSpec;
 use crate::framework::world::World;
 use crate::jobs::Runner;
 use crate::reproduce::shipped;
@@ -102,6 +103,7 @@ async fn submit(bench: &Bench, problem: &Problem) -> JobId {
         seed: SEED,
         repetitions: 1,
         max_evaluations_per_s: None,
+        planning: PlanSpec::default(),
     }));
     let view = JobView {
         id: JobId::from_uuid(ids.uuid()),

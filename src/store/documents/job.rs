@@ -13,6 +13,7 @@ use crate::framework::execution::{ExecutionSpec, Problem};
 use crate::framework::experiment::{CellSpec, MatrixSpec};
 use crate::framework::generalization::Weighting;
 use crate::framework::recognition::Metric;
+use crate::framework::trajectory::PlanSpec;
 use serde::{Deserialize, Serialize};
 
 /// The request with its defaults filled in.
@@ -59,6 +60,8 @@ document! {
         repetitions: u32,
         max_evaluations_per_s: Option<f64>,
         earlier_runs: Option<Vec<EarlierRun>>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        planning: Option<PlanSpec>,
     }
 }
 
@@ -74,6 +77,8 @@ document! {
         seed: u64,
         repetitions: u32,
         max_evaluations_per_s: Option<f64>,
+        #[serde(default, skip_serializing_if = "PlanSpec::is_default")]
+        planning: PlanSpec,
     }
 }
 

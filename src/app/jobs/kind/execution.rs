@@ -9,10 +9,11 @@ use crate::app::model::{
     AppError, CostEstimate, CreateJob, ExecutionRequest, ExecutionWork, FieldError, JobProgress, Work, limits,
 };
 use crate::app::ports::Usage;
-use crate::app::{UseCases, chain_text, check_name, compute};
+use crate::app::{UseCases, chain_text, check_name, compute, json_pointer};
 use crate::framework::execution::{Iet, Problem};
 use crate::framework::generalization::Goals;
 use crate::framework::range::Range;
+use crate::framework::trajectory::PlanError;
 
 /// Checks and completes a request.
 ///
@@ -32,8 +33,9 @@ pub(super) async fn resolve(app: &UseCases, mut request: ExecutionRequest) -> Re
         return Err(AppError::invalid(errors));
     };
     let goals = Goals::new(goals.features, &goals.goals).map_err(AppError::internal)?;
+    let interval_s = action.mean_duration_s / goals.len() as f64;
     let mut problem = Problem {
-        goals,
+        goals: goals.spaced(Some(interval_s)),
         urdf,
         robot: robot.spec.clone(),
         world: world.spec,
@@ -47,8 +49,10 @@ pub(super) async fn resolve(app: &UseCases, mut request: ExecutionRequest) -> Re
     let seed = request.seed.unwrap_or_else(|| app.ports.ids.seed());
     let setup_key = setup_key(&robot, &problem, seed, request.repetitions);
     problem.earlier = app.earlier_trials(&mut request, setup_key.as_deref()).await?;
-    let problem = compute(move || match Iet::new(&problem, seed) {
-        Ok(_) => Ok(problem),
+    let planning = request.planning.clone().unwrap_or_default();
+    request.planning = Some(planning.clone());
+    let (problem, planning) = compute(move || match Iet::new(&problem, seed) {
+        Ok(iet) => planning.check(iet.chain()).map_err(|error| refused(&error)).map(|()| (problem, planning)),
         Err(error) => Err(AppError::field("/execution", "invalid_problem", chain_text(&error))),
     })
     .await??;
@@ -64,6 +68,7 @@ pub(super) async fn resolve(app: &UseCases, mut request: ExecutionRequest) -> Re
         seed,
         repetitions: request.repetitions,
         max_evaluations_per_s: request.max_evaluations_per_s,
+        planning,
     };
     Ok(again(name, CreateJob::Execution(Box::new(request)), work))
 }
@@ -87,6 +92,12 @@ pub(super) fn estimate(work: &ExecutionWork, cost: TrialCost<'_>) -> Result<Cost
     let evaluations = first.preview.whole() * f64::from(work.repetitions);
     let paced_s = work.max_evaluations_per_s.map_or(0.0, |rate| evaluations / rate);
     Ok(cost.of(evaluations, &[first], paced_s, basis))
+}
+
+/// A choice for the trajectories that is not allowed, with its place.
+fn refused(error: &PlanError) -> AppError {
+    let place = error.place().into_iter().fold("/planning".to_owned(), |parent, key| json_pointer::join(&parent, key));
+    AppError::field(place, "invalid_planning", error.to_string())
 }
 
 /// Checks the numbers and names of a request before anything is looked up.

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { Link } from "react-router";
 import { useAction, useRobot, useWorld } from "../../api/queries";
-import type { CreateJob, EarlierRun, Job, MethodChoice } from "../../api/types";
+import type { CreateJob, EarlierRun, Job, MethodChoice, PlanSpec } from "../../api/types";
 import { formatDateTime, formatNumber, humanize } from "../../lib/format";
 import { Card, Facts, type Fact } from "../../ui/basics";
 
@@ -71,11 +71,20 @@ function executionFacts(request: Extract<CreateJob, { kind: "execution" }>): Fac
     ["Target discrepancy", execution.target_discrepancy],
     ["Max. evaluations per goal", execution.max_evaluations_per_goal],
     ["Max. evaluations per second", request.max_evaluations_per_s],
+    ["Motion", request.planning == null ? null : motion(request.planning)],
     ["First seed", seed == null ? null : String(seed)],
     ["Repetitions", repetitions],
     ["Starts with", earlier == null ? null : <EarlierTrials key="earlier" runs={earlier} />],
   ];
   return given.flatMap(([name, value]) => (value == null ? [] : [{ name, value }]));
+}
+
+/** The choices for trajectories in a few words. */
+function motion({ speed = 0.5, acceleration = 0.5, blend = false, dwell_s: pause = 0.1, timing = "limits" }: PlanSpec): string {
+  const percent = (share: number) => `${formatNumber(100 * share)} %`;
+  const goals = blend ? "passes through the goals" : `stops ${formatNumber(pause)} s at each goal`;
+  const demonstrated = timing === "demonstration" ? ", timing of the demonstrations" : "";
+  return `${percent(speed)} speed, ${percent(acceleration)} acceleration, ${goals}${demonstrated}`;
 }
 
 function methodName(method: MethodChoice): string {

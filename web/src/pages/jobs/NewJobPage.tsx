@@ -11,6 +11,7 @@ import { NumberField, SelectField, within } from "../../ui/fields";
 import { DryRun } from "./DryRun";
 import { EMPTY_FORM, requestOf, suggested, type JobForm, type TextKey } from "./jobForm";
 import { MethodCard, RealityCard } from "./MethodCard";
+import { MotionCard } from "./MotionCard";
 
 const limits = bounds.CreateJobExecution;
 
@@ -49,6 +50,7 @@ export function NewJobPage() {
               <NumberField label="Max. evaluations per goal" min={1} {...text("maxEvaluations")} />
             </div>
           </Card>
+          <MotionCard form={form} change={change} />
           <Card title="Repetitions">
             <div className="fields">
               <NumberField label="Runs" hint="Run r uses seed + r." {...within(limits.repetitions)} required {...text("repetitions")} />

@@ -78,6 +78,14 @@ describe("requestOf", () => {
     });
   });
 
+  it("asks for half the limits, and for a pause only where the arm stops", () => {
+    const chosen = { ...EMPTY_FORM, action: "a", robot: "r", world: "w" };
+    const half = { speed: 0.5, acceleration: 0.5, blend: false, timing: "limits", dwell_s: 0.1 };
+    expect(requestOf(chosen, sst)).toHaveProperty("planning", half);
+    const passing = requestOf({ ...chosen, speed: "80", goals: "pass", timing: "demonstration" }, sst);
+    expect(passing).toHaveProperty("planning", { speed: 0.8, acceleration: 0.5, blend: true, timing: "demonstration" });
+  });
+
   it("suggests the method of fewest evaluations that works in the world", () => {
     expect(suggested(wall).method).toBe("particle");
   });

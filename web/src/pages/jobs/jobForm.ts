@@ -1,6 +1,6 @@
 // The new-job form as data: its defaults per world, and the request built from it.
 
-import type { CreateJob, ExecutionSpec, Method, MethodChoice, Metric, World } from "../../api/types";
+import type { CreateJob, ExecutionSpec, Method, MethodChoice, Metric, PlanSpec, PlanTiming, World } from "../../api/types";
 import { requestOf as methodRequest } from "./methods";
 
 export interface JobForm {
@@ -25,6 +25,11 @@ export interface JobForm {
   seed: string;
   repetitions: string;
   pace: string;
+  speed: string;
+  acceleration: string;
+  goals: "stop" | "pass";
+  pause: string;
+  timing: PlanTiming;
 }
 
 /** The fields that hold a text each. */
@@ -51,6 +56,11 @@ export const EMPTY_FORM: JobForm = {
   seed: "",
   repetitions: "1",
   pace: "",
+  speed: "50",
+  acceleration: "50",
+  goals: "stop",
+  pause: "0.1",
+  timing: "limits",
 };
 
 /** Defaults for a world: the method that needs the fewest evaluations there. For SST on a wall the discrepancy changes in
@@ -81,7 +91,20 @@ export function requestOf(form: JobForm, method: Method | undefined): CreateJob 
     seed: optional(form.seed),
     repetitions: Number(form.repetitions),
     max_evaluations_per_s: optional(form.pace),
+    planning: planningOf(form),
     ...(method.learns_from_earlier_runs && form.earlier === "none" ? { earlier_runs: [] } : {}),
+  };
+}
+
+/** The choices for trajectories; the form has percent, the request shares. */
+function planningOf(form: JobForm): PlanSpec {
+  const blend = form.goals === "pass";
+  return {
+    speed: Number(form.speed) / 100,
+    acceleration: Number(form.acceleration) / 100,
+    blend,
+    timing: form.timing,
+    ...(blend ? {} : { dwell_s: Number(form.pause) }),
   };
 }
 
