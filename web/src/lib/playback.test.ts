@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { goalsReached, indexAt, named, positionsAt } from "./playback";
+import { reachedBy, indexAt, named, positionsAt } from "./playback";
 
 const points = [
   { t_s: 0, positions: [0, 1] },
@@ -28,7 +28,7 @@ it("finds the point before a time", () => {
 });
 
 it("counts reached goals", () => {
-  expect(goalsReached([0.1, 0.3, 0.9], 0.1 + 0.2)).toBe(2);
+  expect(reachedBy([0.1, 0.3, 0.9], 0.1 + 0.2)).toBe(2);
 });
 
 it("pairs names with values", () => {

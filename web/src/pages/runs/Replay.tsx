@@ -6,7 +6,7 @@ import type { Robot, Run, RunGoals, Trajectory, World } from "../../api/types";
 import type { WallGrid } from "../../lib/coverage";
 import { decimateMinMax } from "../../lib/decimate";
 import { formatNumber, formatQuantity } from "../../lib/format";
-import { goalsReached, indexAt, named, positionsAt } from "../../lib/playback";
+import { indexAt, named, positionsAt, reachedBy } from "../../lib/playback";
 import { positionReader } from "../../lib/space";
 import { Card } from "../../ui/basics";
 import { Loaded, Loading } from "../../ui/feedback";
@@ -18,7 +18,7 @@ import { usePlayback } from "./usePlayback";
 const MAX_TRAIL = 1500;
 
 /** The fields of a trajectory needed to draw it. */
-type Motion = Pick<Trajectory, "joint_names" | "points" | "duration_s" | "goal_times_s">;
+type Motion = Pick<Trajectory, "joint_names" | "points" | "duration_s" | "pose_times_s" | "goal_times_s">;
 
 export function Replay({ run, goals }: { run: Run; goals: RunGoals }) {
   const planned = run.trajectory != null;
@@ -61,7 +61,7 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
     return kept.flatMap((index) => points[index] ?? []);
   }, [points]);
   const path = useMemo(() => shown.map((point) => named(names, point.positions)), [shown, names]);
-  const strokes = useMemo(() => goals.goals.map((goal) => named(goals.joint_names, goal.joints)), [goals]);
+  const strokes = useMemo(() => posesOf(goals).map((pose) => named(goals.joint_names, pose)), [goals]);
   const targets = useMemo(() => {
     const read = positionReader(goals.features);
     return read === null ? undefined : goals.goals.map((goal) => read(goal.goal));
@@ -69,7 +69,8 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
   const wall = useMemo(() => wallOf(world), [world]);
   const joints = useMemo(() => named(names, positionsAt(points, play.timeS)), [names, points, play.timeS]);
 
-  const reached = goalsReached(trajectory.goal_times_s, play.timeS);
+  const reached = reachedBy(trajectory.goal_times_s, play.timeS);
+  const strokesDone = reachedBy(trajectory.pose_times_s, play.timeS);
   const last = goals.goals[reached - 1];
   return (
     <>
@@ -80,7 +81,7 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
         path={path}
         pathIndex={indexAt(shown, play.timeS)}
         {...(targets === undefined ? {} : { goals: targets })}
-        {...(wall === undefined ? {} : { wall, strokes, strokesDone: reached, onPainted: setCells })}
+        {...(wall === undefined ? {} : { wall, strokes, strokesDone, onPainted: setCells })}
         summary={`Robot ${robot.name} at ${formatNumber(play.timeS, 3)} seconds, ${reached} of ${goals.goals.length} goals reached`}
       />
       <Player play={play} durationS={trajectory.duration_s} marks={trajectory.goal_times_s} />
@@ -100,10 +101,18 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
   );
 }
 
-/** Stand-in for a missing trajectory: the poses of the goals, one second apart. For drawing only, never executed. */
-function throughPoses({ goals, joint_names: names }: RunGoals): Motion {
-  const points = goals.map((goal, index) => ({ t_s: index, positions: goal.joints, velocities: [], accelerations: [] }));
-  return { joint_names: names, points, duration_s: Math.max(1, goals.length - 1), goal_times_s: points.map((point) => point.t_s) };
+/** The poses that leave the run's effect, in order; in runs of earlier versions those of the goals. */
+function posesOf({ goals, path }: RunGoals): number[][] {
+  return path.length > 0 ? path.map((pose) => pose.joints) : goals.map((goal) => goal.joints);
+}
+
+/** Stand-in for a missing trajectory: the poses, one second apart. For drawing only, never executed. */
+function throughPoses(goals: RunGoals): Motion {
+  const poses = posesOf(goals);
+  const points = poses.map((positions, index) => ({ t_s: index, positions, velocities: [], accelerations: [] }));
+  const pose_times_s = points.map((point) => point.t_s);
+  const goal_times_s = goals.path.length > 0 ? goals.path.flatMap((pose, index) => pose.goals.map(() => index)) : pose_times_s;
+  return { joint_names: goals.joint_names, points, duration_s: Math.max(1, poses.length - 1), pose_times_s, goal_times_s };
 }
 
 function wallOf(world: World): WallGrid | undefined {

@@ -57,14 +57,17 @@ function counted({ simulated, real, inherited, granule, penalised }: Run["proven
 }
 
 function RunFacts({ run, features }: { run: Run; features: readonly Feature[] }) {
+  const unit = commonUnit(features);
   const painted = run.painted_percent == null ? [] : [{ name: "Painted", value: formatQuantity(run.painted_percent, "%") }];
+  const along = run.replay?.along;
   return (
     <div className="stack">
       <Facts
         large
         facts={[
           { name: "Evaluations", value: formatCount(run.evaluations) },
-          { name: "Discrepancy", value: formatQuantity(run.discrepancy, commonUnit(features)) },
+          { name: "Discrepancy", value: formatQuantity(run.discrepancy, unit) },
+          ...(along == null ? [] : [{ name: "Along the motion", value: formatQuantity(along.discrepancy, unit) }]),
           ...painted,
           { name: "Goals", value: run.goals },
         ]}
@@ -74,6 +77,7 @@ function RunFacts({ run, features }: { run: Run; features: readonly Feature[] })
           { name: "Method", value: run.method.toUpperCase() },
           { name: "Metric", value: humanize(run.metric) },
           { name: "Seed", value: String(run.seed) },
+          ...replayFacts(run, unit),
           { name: "Ended", value: formatDateTime(Date.parse(run.created_at)) },
           { name: "Digest of the result", value: <code title={run.digest}>{run.digest.slice(0, 16)}…</code> },
         ]}
@@ -81,6 +85,15 @@ function RunFacts({ run, features }: { run: Run; features: readonly Feature[] })
       <ProvenanceLegend counts={counted(run.provenance)} />
     </div>
   );
+}
+
+/** What the motion did when it was executed once more in simulation. */
+function replayFacts({ replay }: Run, unit: string) {
+  if (replay == null) return [];
+  const { agrees, along, discrepancy } = replay;
+  const shown = agrees ? `as claimed: ${formatQuantity(discrepancy, unit)}` : "differs from what the run claims";
+  const swept = along?.painted_percent == null ? [] : [{ name: "Painted if never lifted", value: formatQuantity(along.painted_percent, "%") }];
+  return [{ name: "Replayed", value: shown }, ...swept];
 }
 
 function Exports({ run }: { run: Run }) {
