@@ -60,7 +60,7 @@ fn read(yaml: &str) -> JointTrajectory {
             ("velocities", Some(point)) => point.velocities = numbers(value),
             ("accelerations", Some(point)) => point.accelerations = numbers(value),
             ("time_from_start", Some(point)) => point.time_from_start = time(value),
-            _ => panic!("{line:?} is no line of a JointTrajectory"),
+            _ => panic!("{line:?} does not belong to a JointTrajectory"),
         }
     }
     message

@@ -1,10 +1,11 @@
 //! Checks of a motion: its polynomials at their extrema and joints, its samples one by one.
 
-use super::checked::{LimitKind, Point, Tightest};
 use super::error::TrajectoryError;
 use super::limits::{JointLimits, limits_under};
 use super::piece::Piece;
+use super::point::Point;
 use super::spec::PlanSpec;
+use super::tightest::{LimitKind, Tightest};
 use crate::robot::Chain;
 
 /// Relative amount by which a computed value may exceed its limit, for rounding.
@@ -141,8 +142,7 @@ fn same(limit: &JointLimits, time_s: f64, before: [f64; 3], after: [f64; 3]) -> 
     ];
     for ((kind, scale), (a, b)) in kinds.into_iter().zip(before.into_iter().zip(after)) {
         let by = (b - a).abs();
-        // Also true for NaN.
-        if !(by <= GAP * scale) {
+        if by.is_nan() || by > GAP * scale {
             return Err(TrajectoryError::Jump { kind, joint: limit.name.clone(), time_s, by });
         }
     }

@@ -3,78 +3,10 @@
 use super::check::{check_pieces, check_samples};
 use super::error::TrajectoryError;
 use super::limits::JointLimits;
-use super::piece::{Piece, State, at_time};
-use serde::{Deserialize, Serialize};
+use super::piece::{Piece, at_time};
+use super::point::Point;
+use super::tightest::Tightest;
 use std::collections::BTreeMap;
-
-/// One sample of a trajectory.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Point {
-    /// Time from the start, s.
-    pub time_s: f64,
-    /// Joint positions in gene order, rad or m.
-    pub positions: Vec<f64>,
-    /// Joint velocities in gene order, rad/s or m/s.
-    pub velocities: Vec<f64>,
-    /// Joint accelerations in gene order, rad/s^2 or m/s^2.
-    pub accelerations: Vec<f64>,
-    /// Index, among the waypoints that ask for rest, of the (last) one reached here, from 0; `None` between them.
-    pub waypoint: Option<usize>,
-    /// Index of the (last) goal reached here, from 0; `None` between goals.
-    pub goal: Option<usize>,
-}
-
-impl Point {
-    pub(super) fn new(time_s: f64, state: State) -> Self {
-        let State { positions, velocities, accelerations } = state;
-        Self { time_s, positions, velocities, accelerations, waypoint: None, goal: None }
-    }
-}
-
-/// A kind of limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum LimitKind {
-    /// Position within lower and upper.
-    Position,
-    /// Magnitude of the velocity.
-    Velocity,
-    /// Magnitude of the acceleration.
-    Acceleration,
-    /// Magnitude of the jerk, the rate at which the acceleration changes.
-    Jerk,
-}
-
-impl std::fmt::Display for LimitKind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Position => "position",
-            Self::Velocity => "velocity",
-            Self::Acceleration => "acceleration",
-            Self::Jerk => "jerk",
-        })
-    }
-}
-
-/// The point at which a kind of limit is used most.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Tightest {
-    /// Kind of limit.
-    pub kind: LimitKind,
-    /// Joint name.
-    pub joint: String,
-    /// Time from the start, s.
-    pub time_s: f64,
-    /// Value at that time, in the limit's unit.
-    pub value: f64,
-    /// Limit at that time; for positions the closer of the two.
-    pub limit: f64,
-    /// Share of the limit used: 1 means at the limit. For positions, the distance from the middle of the range divided
-    /// by half the range.
-    pub ratio: f64,
-}
 
 /// A trajectory within all limits. Only [`plan()`](super::plan()) creates one.
 #[derive(Debug, Clone, PartialEq)]

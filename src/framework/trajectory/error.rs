@@ -1,7 +1,7 @@
-//! Reasons why waypoints do not form a trajectory, or samples are none.
+//! Reasons why waypoints or samples do not form a trajectory.
 
-use super::checked::LimitKind;
 use super::spec::PlanError;
+use super::tightest::LimitKind;
 
 /// Reasons why waypoints do not form a trajectory.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -3,7 +3,9 @@
 //! A controller moves only the joints that a trajectory names, and a `joint_trajectory_controller` refuses goals that
 //! leave out some of its joints. Exports therefore name the held joints too, at their constant position.
 
-use super::checked::{CheckedTrajectory, Point, Tightest};
+use super::checked::CheckedTrajectory;
+use super::point::Point;
+use super::tightest::Tightest;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -33,13 +35,13 @@ pub enum ExportError {
     /// A joint would have no name.
     #[error("joint {joint:?} would have an empty name: give it another one")]
     Unnamed {
-        /// The joint.
+        /// Its name in the trajectory.
         joint: String,
     },
     /// Two joints would have the same name.
     #[error("two joints would be named {name:?}: give each its own name")]
     SameName {
-        /// The name.
+        /// Name in the export.
         name: String,
     },
 }

@@ -5,44 +5,20 @@
 //! the way from one goal to the next is stretched to the interval between the demonstrated goals.
 
 use super::blend::Route;
-use super::checked::{CheckedTrajectory, Planned, Point};
+use super::checked::{CheckedTrajectory, Planned};
 use super::error::TrajectoryError;
 use super::limits::{JointLimits, limits_under};
 use super::piece::{Piece, State, at_time};
+use super::point::Point;
 use super::polynomial::Polynomial;
 use super::profile::DoubleS;
 use super::spec::{PlanSpec, Timing};
 use super::timing::{Interval, leg_durations};
+use super::waypoint::Waypoint;
 use crate::robot::Chain;
 
 /// Maximum number of samples of a trajectory.
 const MAX_SAMPLES: f64 = 1e6;
-
-/// A pose on the way.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Waypoint {
-    /// Joint positions in gene order, rad or m.
-    pub joints: Vec<f64>,
-    /// Index of the goal reached here, from 0; `None` if the pose belongs to no goal.
-    pub goal: Option<usize>,
-    /// Whether the arm rests here for the dwell. A pose that only leads around an obstacle needs no rest: the arm stops
-    /// there for no time, or passes it if it blends.
-    pub rest: bool,
-}
-
-impl Waypoint {
-    /// Rests at the pose of goal `index`.
-    #[must_use]
-    pub fn goal(index: usize, joints: Vec<f64>) -> Self {
-        Self { joints, goal: Some(index), rest: true }
-    }
-
-    /// The poses of goals 0, 1, 2, ...
-    #[must_use]
-    pub fn goals(poses: &[Vec<f64>]) -> Vec<Self> {
-        poses.iter().enumerate().map(|(index, pose)| Self::goal(index, pose.clone())).collect()
-    }
-}
 
 /// Joins `start` (n values, rad or m) and the waypoints into a trajectory within the chain's limits, and checks it.
 /// `interval_s` is the time between two goals of the demonstrations; `None` if it is unknown.
@@ -163,7 +139,7 @@ impl Motion {
             Some(_) => leg_durations(interval, &straight_s, &vec![0.0; waypoints.len()]),
             None => vec![0.0; waypoints.len()],
         };
-        // A leg that takes no time is no leg: its waypoint is reached with the one before.
+        // The waypoint of a leg that takes no time is reached together with the one before.
         let legs: Vec<usize> = (0..waypoints.len()).filter(|&leg| straight_s[leg].max(least_s[leg]) > 0.0).collect();
         let mut pieces = Vec::new();
         if !legs.is_empty() {

@@ -5,6 +5,7 @@ use crate::preset::shipped;
 use crate::robot::{Chain, RobotModel, RobotSpec};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 fn arm() -> Chain {
     let problem = shipped("wax").unwrap().problem;
@@ -24,7 +25,8 @@ fn chain_of(joints: &[Joint]) -> Chain {
     let mut spec = RobotSpec::default();
     for (index, (prismatic, half, velocity, acceleration, jerk)) in joints.iter().enumerate() {
         let (name, kind) = (format!("j{index}"), if *prismatic { "prismatic" } else { "revolute" });
-        urdf += &format!(
+        let _ = write!(
+            urdf,
             "<link name=\"l{}\"/><joint name=\"{name}\" type=\"{kind}\"><parent link=\"l{index}\"/><child \
              link=\"l{}\"/><axis xyz=\"0 0 1\"/><origin xyz=\"0.1 0 0\"/><limit lower=\"-{half}\" upper=\"{half}\" \
              velocity=\"{velocity}\" effort=\"1\"/></joint>",
@@ -63,14 +65,12 @@ fn specs() -> impl Strategy<Value = PlanSpec> {
 }
 
 /// Value of a polynomial's derivative of some order, term by term: the oracle shares no code with the checker.
-fn derivative(coefficients: &[f64; 6], order: i32, t: f64) -> f64 {
-    (order..6)
-        .zip(&coefficients[order.unsigned_abs() as usize..])
-        .map(|(power, c)| {
-            let falling: f64 = ((power - order + 1)..=power).map(f64::from).product();
-            c * falling * t.powi(power - order)
-        })
-        .sum()
+fn derivative(coefficients: &[f64; 6], order: u32, t: f64) -> f64 {
+    let term = |(power, coefficient): (u32, &f64)| {
+        let falling: f64 = (power - order + 1..=power).map(f64::from).product();
+        coefficient * falling * t.powf(f64::from(power - order))
+    };
+    (0..).zip(coefficients).skip(order as usize).map(term).sum()
 }
 
 /// Asserts that the curve is continuous up to its acceleration and within `shares` of the limits, looking every

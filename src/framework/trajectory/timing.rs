@@ -1,6 +1,6 @@
 //! The demonstration's timing: goal g is reached one interval after goal g - 1, the first one interval after the start.
 
-use super::plan::Waypoint;
+use super::waypoint::Waypoint;
 
 /// The interval between the goals of a demonstration.
 pub struct Interval<'a> {
