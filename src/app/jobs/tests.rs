@@ -7,7 +7,9 @@ use crate::app::model::{
 };
 use crate::app::ports::{Advance, Events as _, Queue as _, TestClock, Transition, Wake};
 use crate::framework::job::{Event, State};
-use serde_json::json;
+use crate::framework::trajectory::PlanSpec;
+use rstest::rstest;
+use serde_json::{Value, json};
 use std::time::Duration;
 use uuid::Uuid;
 
@@ -84,6 +86,31 @@ async fn an_execution_of_nothing_names_each_missing_reference() {
     let validation = bench.app.validate_job(CreateJob::Execution(Box::new(request)), None).await.unwrap();
     let places: Vec<_> = validation.errors.iter().map(|place| place.pointer.as_str()).collect();
     assert_eq!((validation.valid, places.as_slice()), (false, &["/repetitions", "/action"][..]));
+}
+
+#[rstest]
+#[case(json!({"speed": 1.5}), "/planning/speed")]
+#[case(json!({"acceleration": 0}), "/planning/acceleration")]
+#[case(json!({"sample_s": 0}), "/planning/sample_s")]
+#[case(json!({"joint_limits": {"knee": {}}}), "/planning/joint_limits/knee")]
+#[case(json!({"joint_limits": {"elbow_pitch": {"velocity": 4}}}), "/planning/joint_limits/elbow_pitch/velocity")]
+#[tokio::test]
+async fn a_wrong_choice_for_the_trajectories_is_told_by_its_place(#[case] planning: Value, #[case] place: &str) {
+    let bench = Bench::new();
+    let (action, robot, world) = (bench.action("wax").await, bench.robot().await, bench.world().await);
+    let request = |planning: &Value| {
+        let request: ExecutionRequest = serde_json::from_value(json!({
+            "action": action.id, "robot": robot.id, "world": world.id, "execution": {"method": "sst"},
+            "planning": planning,
+        }))
+        .unwrap();
+        CreateJob::Execution(Box::new(request))
+    };
+    let error = bench.app.create_job(request(&planning), None).await.unwrap_err();
+    assert_eq!(places(&error), [(place, "invalid_planning")]);
+    let job = bench.app.create_job(request(&Value::Null), None).await.unwrap();
+    let CreateJob::Execution(shown) = job.request else { panic!("{:?}", job.request) };
+    assert_eq!(shown.planning, Some(PlanSpec::default()));
 }
 
 #[tokio::test]
