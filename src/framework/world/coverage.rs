@@ -1,10 +1,10 @@
 //! The coverage world (the paper's paint): a grid whose cells are painted when the tool comes close to them.
 
+use super::cell_grid::CellGrid;
 use super::{CoverageSpec, Surface, SurfaceView, World, WorldError};
 use crate::range::{Range, above};
 use crate::robot::{Chain, tool_position};
 use crate::{CellSet, Feature};
-use nalgebra::Vector3;
 
 /// Maximum number of cells of a surface.
 const MAX_CELLS: u64 = 1 << 20;
@@ -18,8 +18,7 @@ const MAX_LENGTH_M: f64 = 1e4;
 pub(super) struct Coverage {
     chain: Chain,
     features: Vec<Feature>,
-    centres_m: Vec<Vector3<f64>>,
-    radius_squared: f64,
+    grid: CellGrid,
     painted: CellSet,
     /// Number of painted cells.
     count: usize,
@@ -75,33 +74,21 @@ pub(super) fn check(spec: &CoverageSpec) -> Result<(), WorldError> {
     Ok(())
 }
 
-/// Cell centres in the base frame, row-major.
-///
-/// # Errors
-/// As for [`check`].
-pub(super) fn centres(spec: &CoverageSpec) -> Result<Vec<Vector3<f64>>, WorldError> {
-    check(spec)?;
-    let [origin, column, row] = [spec.origin_m, spec.column_step_m, spec.row_step_m].map(Vector3::from);
-    Ok((0..spec.rows)
-        .flat_map(|r| (0..spec.columns).map(move |c| origin + row * f64::from(r) + column * f64::from(c)))
-        .collect())
-}
-
 impl Coverage {
     pub(super) fn new(spec: &CoverageSpec, chain: &Chain) -> Result<Self, WorldError> {
-        let centres_m = centres(spec)?;
+        check(spec)?;
+        let grid = CellGrid::new(spec);
         Ok(Self {
             chain: chain.clone(),
             features: features(spec),
-            painted: CellSet::empty(centres_m.len()),
-            centres_m,
-            radius_squared: spec.radius_m * spec.radius_m,
+            painted: CellSet::empty(grid.cells()),
+            grid,
             count: 0,
         })
     }
 
     fn percent(&self, count: usize) -> f64 {
-        100.0 * count as f64 / self.centres_m.len() as f64
+        100.0 * count as f64 / self.grid.cells() as f64
     }
 }
 
@@ -118,25 +105,23 @@ impl World for Coverage {
     fn observe(&mut self, joints: &[f64], observation: &mut [f64]) {
         let tool = tool_position(&self.chain, joints);
         let (share, seen) = observation.split_at_mut(1);
-        let mut count = self.count;
-        for (cell, centre) in self.centres_m.iter().enumerate() {
-            let was_painted = self.painted.contains(cell);
-            let is_near = (tool - centre).norm_squared() < self.radius_squared;
-            count += usize::from(is_near && !was_painted);
-            if let Some(value) = seen.get_mut(cell) {
-                *value = f64::from(u8::from(is_near || was_painted));
-            }
+        for (cell, value) in seen.iter_mut().enumerate() {
+            *value = f64::from(u8::from(self.painted.contains(cell)));
         }
+        let mut count = self.count;
+        self.grid.near(&tool, |cell| {
+            count += usize::from(!self.painted.contains(cell));
+            if let Some(value) = seen.get_mut(cell) {
+                *value = 1.0;
+            }
+        });
         share[0] = self.percent(count);
     }
 
     fn commit(&mut self, joints: &[f64], observation: &mut [f64]) {
         let tool = tool_position(&self.chain, joints);
-        for (cell, centre) in self.centres_m.iter().enumerate() {
-            if (tool - centre).norm_squared() < self.radius_squared {
-                self.count += usize::from(self.painted.insert(cell));
-            }
-        }
+        let (painted, count) = (&mut self.painted, &mut self.count);
+        self.grid.near(&tool, |cell| *count += usize::from(painted.insert(cell)));
         observation[0] = self.percent(self.count);
         for (cell, value) in observation[1..].iter_mut().enumerate() {
             *value = f64::from(u8::from(self.painted.contains(cell)));

@@ -27,6 +27,9 @@ pub enum WorldError {
     /// the name `reality` that they have in a problem.
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
+    /// The world has no surface, which a method needs.
+    #[error("the world has no surface: give one of kind \"coverage\"")]
+    NoSurface,
     /// All cells of a row or column are at the same place.
     #[error("{field} is zero for {count} cells: they would coincide")]
     ZeroStep {

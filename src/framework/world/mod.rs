@@ -4,6 +4,7 @@
 //! - A world's only memory is the prefix of poses committed since its last reset.
 //! - [`World::observe`] changes nothing that can be observed, and allocates nothing.
 
+mod cell_grid;
 mod coverage;
 mod disturbed;
 mod error;
@@ -14,6 +15,7 @@ mod tests;
 mod tool_distance;
 mod tool_position;
 
+pub(crate) use cell_grid::CellGrid;
 pub use disturbed::{DisturbanceSpec, SimulatedRobot, build_disturbed};
 pub use error::WorldError;
 pub use properties::{Surface, WorldProperties};
@@ -78,6 +80,15 @@ impl WorldSpec {
         match self {
             Self::ToolPosition(_) | Self::ToolDistance(_) => WorldProperties { smooth: true, surface: None },
             Self::Coverage(spec) => WorldProperties { smooth: false, surface: Some(coverage::surface(spec)) },
+        }
+    }
+
+    /// The description of the surface; `None` if the world has no surface.
+    #[must_use]
+    pub fn surface(&self) -> Option<&CoverageSpec> {
+        match self {
+            Self::Coverage(spec) => Some(spec),
+            Self::ToolPosition(_) | Self::ToolDistance(_) => None,
         }
     }
 

@@ -38,9 +38,11 @@ fn tool_position_is_in_millimetres() {
 
 #[test]
 fn the_wall_is_where_the_paper_has_it() {
-    let centres = coverage::centres(&wall()).unwrap();
-    assert_eq!(centres.len(), 16);
-    for centre in &centres {
+    let grid = CellGrid::new(&wall());
+    assert_eq!(grid.cells(), 16);
+    for cell in 0..16 {
+        let [column, row] = grid.place(cell);
+        let centre = grid.point(column, row);
         assert!((centre.x - 0.6).abs() < 1e-12);
         assert!([-0.8, -0.6, -0.4, -0.2].iter().any(|y| (centre.y - y).abs() < 1e-12), "{centre}");
         assert!([0.32, 0.52, 0.72, 0.92].iter().any(|z| (centre.z - z).abs() < 1e-12), "{centre}");
