@@ -96,7 +96,7 @@ mod tests {
     #[case("paint", json!({"name": "model"}), "particle or search")]
     #[case("paint", json!({"name": "search", "max_evaluations": 0}), "max_evaluations is 0")]
     #[case("paint", json!({"name": "particle", "base_shift_m": 1e9}), "0 to 10 m")]
-    #[case("paint", json!({"name": "particle", "particles": 1024, "poses": 8192}), "poses x particles x cells is")]
+    #[case("paint", json!({"name": "particle", "particles": 1025}), "particles is 1025")]
     fn absurd_methods_are_refused(#[case] preset: &str, #[case] method: Value, #[case] says: &str) {
         let error = refusal(preset, &json!({ "method": method }));
         assert!(error.contains(says), "{error:?}");

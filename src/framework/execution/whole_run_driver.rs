@@ -49,11 +49,16 @@ impl WholeRunDriver {
         if self.method.log().is_empty() {
             return false;
         }
+        let features = self.method.log().iter().find_map(|trial| Some(trial.observation.as_ref()?.len()));
+        let untouched = vec![0.0; features.unwrap_or(0)];
         let mut measure = measure.clone();
         let mut discrepancy = f64::INFINITY;
         for outcome in self.method.outcomes() {
-            let trial = outcome.trial.map(|index| &self.method.log()[index]);
-            let Some(observation) = trial.and_then(|trial| trial.observation.as_deref()) else { return false };
+            let observation = match outcome.trial {
+                Some(index) => self.method.log()[index].observation.as_deref(),
+                None => outcome.distance.is_finite().then_some(untouched.as_slice()),
+            };
+            let Some(observation) = observation else { return false };
             discrepancy = measure.of(observation);
             measure.append(observation);
         }
@@ -123,11 +128,17 @@ impl WholeRunDriver {
             let of_goal = |trial: &&Trial| trial.goal == index;
             let evaluations = log.iter().filter(of_goal).count() as u64;
             let nothing = ProblemError::NothingExecuted { goal: index, trials: log.len() as u64 };
-            let Some(trial) = outcome.trial.map(|t| &log[t]) else { return Err(nothing) };
-            let Some(observation) = trial.observation.clone() else { return Err(nothing) };
+            let (joints, observation) = match outcome.trial.map(|t| &log[t]) {
+                Some(trial) => (trial.joints.clone(), trial.observation.clone()),
+                None if outcome.distance.is_finite() => {
+                    (setup.chain.home().to_vec(), Some(vec![0.0; setup.select.len()]))
+                }
+                None => return Err(nothing),
+            };
+            let Some(observation) = observation else { return Err(nothing) };
             let value = discrepancy.of(&observation);
             let previous = results.last().map(|result| result.joints.as_slice());
-            let pose = Proposal { joints: &trial.joints, origins: [None; 2], previous };
+            let pose = Proposal { joints: &joints, origins: [None; 2], previous };
             let feasible = setup.constraints.is_feasible(&pose);
             discrepancy.append(&observation);
             results.push(GoalResult {
@@ -144,7 +155,7 @@ impl WholeRunDriver {
                 } else {
                     StopReason::OutOfReach
                 },
-                joints: trial.joints.clone(),
+                joints,
                 observation,
                 provenance,
                 true_discrepancy: None,

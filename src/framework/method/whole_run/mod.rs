@@ -21,9 +21,9 @@ mod surface;
 
 pub use broyden::{Broyden, BroydenSpec};
 pub use model::{ModelIet, ModelSpec, Prior};
-pub use particle::{ParticleIet, ParticleSpec, Simulator};
+pub use particle::ParticleSpec;
 pub use planner::{FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 pub use search::SearchIet;
 pub use space::{Allows, Axis, Space};
 pub use steps::{StepLimits, Stepped, Targets};
-pub use surface::{CoverSpec, Grid};
+pub use surface::CoverSpec;

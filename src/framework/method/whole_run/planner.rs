@@ -52,9 +52,11 @@ pub enum NextTrial {
 /// The result for one goal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GoalOutcome {
-    /// Index of the trial whose pose serves the goal best; `None` if nothing was observed.
+    /// Index of the trial whose pose serves the goal best; `None` if the start does, before any trial, or if nothing was
+    /// observed.
     pub trial: Option<usize>,
-    /// Its distance from the goal, features' unit (with noise: of the model's mean there).
+    /// Its distance from the goal, features' unit (with noise: of the model's mean there); infinite if nothing was
+    /// observed.
     pub distance: f64,
     /// Whether the goal is reached; otherwise `distance` is the best residual.
     pub reached: bool,

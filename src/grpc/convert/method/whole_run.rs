@@ -34,7 +34,7 @@ pub(super) fn particle(at: &str, message: proto::ParticleIet) -> Result<Particle
     let proto::ParticleIet { max_evaluations, particles, poses, link_share, base_shift_m, max_step_deg } = message;
     let default = ParticleSpec::default();
     Ok(ParticleSpec {
-        max_evaluations: max_evaluations.unwrap_or(default.max_evaluations),
+        max_evaluations: max_evaluations.or(default.max_evaluations),
         particles: particles.unwrap_or(default.particles),
         poses: poses.unwrap_or(default.poses),
         link_share: number(at, "link_share", link_share, default.link_share)?,
@@ -47,7 +47,7 @@ pub(super) fn search(at: &str, message: proto::SearchIet) -> Result<CoverSpec, A
     let proto::SearchIet { max_evaluations, poses, max_step_deg } = message;
     let default = CoverSpec::default();
     Ok(CoverSpec {
-        max_evaluations: max_evaluations.unwrap_or(default.max_evaluations),
+        max_evaluations: max_evaluations.or(default.max_evaluations),
         poses: poses.unwrap_or(default.poses),
         max_step_deg: number_or_none(at, "max_step_deg", max_step_deg, default.max_step_deg)?,
     })
@@ -83,7 +83,7 @@ impl From<ParticleSpec> for proto::ParticleIet {
     fn from(spec: ParticleSpec) -> Self {
         let ParticleSpec { max_evaluations, particles, poses, link_share, base_shift_m, max_step_deg } = spec;
         Self {
-            max_evaluations: Some(max_evaluations),
+            max_evaluations,
             particles: Some(particles),
             poses: Some(poses),
             link_share: Some(link_share),
@@ -96,6 +96,6 @@ impl From<ParticleSpec> for proto::ParticleIet {
 impl From<CoverSpec> for proto::SearchIet {
     fn from(spec: CoverSpec) -> Self {
         let CoverSpec { max_evaluations, poses, max_step_deg } = spec;
-        Self { max_evaluations: Some(max_evaluations), poses: Some(poses), max_step_deg }
+        Self { max_evaluations, poses: Some(poses), max_step_deg }
     }
 }

@@ -1,13 +1,12 @@
 //! PARTICLE-IET: an accumulating effect with a simulator whose parameters are uncertain.
 //!
 //! Each particle is one draw of the simulator's parameters; it says which cells each pose covers and which cells the
-//! accepted trials have changed (S_k). The next trial is the unused pose that most particles, by weight, expect to
-//! gain exactly one cell. A trial reweighs: `log w_k -= 1.5 | |cover_k(q) minus S_k| - gain |`; if the cells are
-//! seen, by the number of cells that were expected and not gained or gained and not expected, and S_k is what is seen.
-//! If no pose convinces half of the weight, particles are resampled and jittered, and the log is replayed.
-//!
-//! Source: N. J. Gordon, D. J. Salmond, A. F. M. Smith, IEE Proceedings F 140 (1993) 107-113.
+//! accepted trials have changed ([`belief`]). The next trial is the pose with the largest expected gain, by the votes
+//! of the particles: the number of new cells, or nothing if that is more than the next goal asks for. Poses come from a
+//! pool spread evenly over the joints' ranges and from aims at open places ([`aim`]).
 
+mod aim;
+mod belief;
 mod spec;
 mod uncertain_robot;
 
@@ -15,209 +14,172 @@ pub use spec::ParticleSpec;
 
 use super::planner::{RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::Space;
-use super::surface::cover::{CoverSpec, Ledger, TrialEffect};
+use super::surface::cover::Ledger;
 use super::surface::covering::Covering;
 use super::surface::sobol;
-use crate::CellSet;
 use crate::random::RandomStream;
-use crate::world::WorldError;
+use crate::world::{CellGrid, Surface, WorldError};
+use belief::{Belief, Particle};
+use nalgebra::Vector3;
 use uncertain_robot::UncertainRobot;
 
-/// Of a renewed pool, one pose in this many lies around the liked ones; their centres; their spread, rad.
-const LOCAL_SHARE: usize = 4;
-const CENTRES: usize = 16;
-const LOCAL_SPREAD: f64 = 0.1;
-const SHARPNESS: f64 = 1.5;
-/// Below this probability of gaining one cell the particles are resampled.
-const CONVINCING: f64 = 0.5;
-/// Below this a random unused pose is tried.
+/// Number of particles that aim before each trial.
+const AIMING: usize = 2;
+/// Number of particles of which at least one must see a gain in a pose for the others to be asked.
+const SCOUTS: usize = 8;
+/// Most poses kept from one trial to the next, of those that promised most.
+const KEPT: usize = 64;
+/// Weight below which a particle has no say, as a share of the mean.
+const SILENT: f64 = 0.02;
+/// Below this expected gain, in cells, a random pose is tried.
 const HOPELESS: f64 = 0.02;
-const RESAMPLINGS: u32 = 2;
-/// After this many hopeless decisions in a row the rest is reported as out of reach.
+/// After this many hopeless decisions in a row the rest is reported as out of reach, and after this many trials in a row
+/// that gained nothing.
 const PATIENCE: u32 = 12;
-/// Jitter of a resampled particle, in standard deviations of the prior.
-const JITTER: f64 = 0.25;
+const MISSES: u32 = 40;
+/// Most trials that are looked at for a pose that was tried before.
+const RECENT: usize = 64;
 
 /// A simulator with uncertain parameters.
-pub trait Simulator: Send {
+pub(crate) trait Simulator: Send {
     /// Standard deviations of the parameters about 0.
     fn spreads(&self) -> Vec<f64>;
 
-    /// Number of cells.
-    fn cells(&self) -> usize;
+    /// The surface.
+    fn grid(&self) -> &CellGrid;
 
-    /// The cells that each pose covers if the parameters are `parameters`.
-    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<CellSet>;
-}
-
-struct Particle {
-    parameters: Vec<f64>,
-    log_weight: f64,
-    covers: Vec<CellSet>,
-    painted: CellSet,
+    /// The places of the tool at `poses` if the parameters are `parameters`, m.
+    fn tools(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<Vector3<f64>>;
 }
 
 /// A run of PARTICLE-IET.
-pub struct ParticleIet {
+struct ParticleIet {
     ledger: Ledger,
     seed: u64,
     space: Space,
-    simulator: Box<dyn Simulator>,
-    /// Poses in a pool.
-    count: usize,
-    poses: Vec<Vec<f64>>,
-    used: Vec<bool>,
-    particles: Vec<Particle>,
-    verdicts: Vec<TrialEffect>,
-    next: Option<usize>,
+    belief: Belief,
+    /// Poses spread evenly over the joints' ranges.
+    pool: Vec<Vec<f64>>,
+    /// Poses that promised most before the last trial.
+    kept: Vec<Vec<f64>>,
+    next: Option<Vec<f64>>,
     hopeless: u32,
 }
 
 impl ParticleIet {
-    /// A run for `goals` over `space` with `particles` draws of `simulator` as the prior.
-    #[must_use]
-    pub fn new(
-        spec: CoverSpec,
-        resets: bool,
-        space: Space,
-        goals: &[Vec<f64>],
-        simulator: Box<dyn Simulator>,
-        particles: usize,
-        seed: u64,
-    ) -> Self {
-        let mut random = RandomStream::of_run(seed, 0);
-        let poses = sobol::poses(&space, spec.poses as usize, &mut random);
-        let spreads = simulator.spreads();
-        let unpainted = CellSet::empty(simulator.cells());
-        let particles = (0..particles)
-            .map(|_| {
-                let parameters: Vec<f64> = spreads.iter().map(|s| s * random.normal()).collect();
-                let covers = simulator.covers(&parameters, &poses);
-                Particle { parameters, log_weight: 0.0, covers, painted: unpainted.clone() }
-            })
-            .collect();
-        let mut run = Self {
-            count: poses.len(),
-            ledger: Ledger::new(spec, resets, goals),
-            seed,
-            space,
-            simulator,
-            used: vec![false; poses.len()],
-            poses,
-            particles,
-            verdicts: Vec::new(),
+    /// A run for the goals of `run` on a surface, with draws of `robot` as the prior.
+    fn new(spec: &ParticleSpec, surface: Surface, robot: Box<dyn Simulator>, run: &RunSetup<'_>) -> Self {
+        let mut random = RandomStream::of_run(run.seed, 0);
+        let pool = sobol::poses(run.space, spec.poses as usize, &mut random);
+        let mut iet = Self {
+            ledger: Ledger::new(spec.max_evaluations, surface, &run.targets.goals),
+            seed: run.seed,
+            space: run.space.clone(),
+            belief: Belief::new(robot, spec.particles as usize, &mut random),
+            pool,
+            kept: Vec::new(),
             next: None,
             hopeless: 0,
         };
-        run.decide();
-        run
+        iet.decide(&mut random);
+        iet
     }
 
-    fn weights(&self) -> Vec<f64> {
-        let top = self.particles.iter().map(|p| p.log_weight).fold(f64::NEG_INFINITY, f64::max);
-        let raw: Vec<f64> = self.particles.iter().map(|p| (p.log_weight - top).exp()).collect();
-        let sum: f64 = raw.iter().sum();
-        raw.into_iter().map(|w| w / sum).collect()
-    }
-
-    /// Each unused pose with the probability that it gains exactly one cell.
-    fn chances(&self) -> Vec<(f64, usize)> {
-        let weights = self.weights();
-        let unused = (0..self.poses.len()).filter(|&z| !self.used[z]);
-        unused
-            .map(|z| {
-                let agree =
-                    self.particles.iter().zip(&weights).filter(|(p, _)| p.covers[z].count_beyond([&p.painted]) == 1);
-                (agree.map(|(_, w)| w).sum(), z)
-            })
-            .collect()
-    }
-
-    /// The likeliest of them, the first on ties.
-    fn best(&self) -> Option<(f64, usize)> {
-        self.chances().into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best })
-    }
-
-    fn decide(&mut self) {
-        let mut random = RandomStream::of_run(self.seed, self.ledger.log.len() as u64 + 1);
-        let mut best = self.best();
-        for _ in 0..RESAMPLINGS {
-            if best.is_none_or(|b| b.0 >= CONVINCING) || self.ledger.log.is_empty() {
-                break;
-            }
-            self.resample(&mut random);
-            best = self.best();
-        }
-        let is_hopeless = best.is_none_or(|b| b.0 < HOPELESS);
-        self.hopeless = if is_hopeless { self.hopeless + 1 } else { 0 };
-        self.next = match best {
-            _ if self.hopeless > PATIENCE => None,
-            Some((chance, z)) if chance >= HOPELESS => Some(z),
-            Some(_) => {
-                let unused: Vec<usize> = (0..self.poses.len()).filter(|&z| !self.used[z]).collect();
-                random.pick(&unused).copied()
-            }
-            None => None,
+    fn decide(&mut self, random: &mut RandomStream) {
+        let mut candidates = self.candidates(random);
+        let gains = self.gains(&candidates);
+        let best = (0..candidates.len()).reduce(|best, next| if gains[next] > gains[best] { next } else { best });
+        let Some(best) = best else {
+            self.next = None;
+            return;
         };
+        let is_hopeless = gains[best] < HOPELESS;
+        self.hopeless = if is_hopeless { self.hopeless + 1 } else { 0 };
+        self.next = match is_hopeless {
+            _ if self.hopeless > PATIENCE || self.ledger.misses() >= MISSES => None,
+            true => random.pick(&self.pool).cloned(),
+            false => Some(candidates[best].clone()),
+        };
+        let mut order: Vec<usize> = (0..candidates.len()).collect();
+        order.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]).then(a.cmp(&b)));
+        order.truncate(KEPT);
+        self.kept = order.into_iter().map(|z| std::mem::take(&mut candidates[z])).collect();
     }
 
-    fn resample(&mut self, random: &mut RandomStream) {
-        let weights = self.weights();
-        let spreads = self.simulator.spreads();
-        let start = random.unit();
-        let (mut sum, mut index) = (weights[0], 0);
-        let count = self.particles.len();
-        let drawn: Vec<Vec<f64>> = (0..count)
-            .map(|k| {
-                let at = (k as f64 + start) / count as f64;
-                while sum < at && index + 1 < count {
-                    index += 1;
-                    sum += weights[index];
+    /// Poses to choose from, none of them tried lately.
+    fn candidates(&self, random: &mut RandomStream) -> Vec<Vec<f64>> {
+        let votes = self.belief.votes();
+        let mut scouts = vec![leader(&votes)];
+        scouts.resize_with(SCOUTS, || drawn(&votes, random));
+        let scouts: Vec<&Particle> = scouts.into_iter().map(|index| &self.belief.particles[index]).collect();
+        let known: Vec<Vec<f64>> = self.pool.iter().chain(&self.kept).cloned().collect();
+        let promising = self.promising(&scouts, &known);
+        let mut candidates: Vec<Vec<f64>> = promising.map(|index| known[index].clone()).collect();
+        for particle in &scouts[..AIMING] {
+            candidates.extend(aim::poses(self.belief.simulator.as_ref(), particle, &self.space, &known, random));
+        }
+        let recent = self.ledger.log.iter().rev().take(RECENT);
+        let tried: Vec<&Vec<f64>> = recent.map(|trial| &trial.joints).collect();
+        candidates.retain(|pose| !tried.contains(&pose));
+        candidates
+    }
+
+    /// Indices of the poses in which one of `scouts` sees a gain.
+    fn promising(&self, scouts: &[&Particle], poses: &[Vec<f64>]) -> impl Iterator<Item = usize> {
+        let grid = self.belief.simulator.grid();
+        let mut gains = vec![false; poses.len()];
+        for scout in scouts {
+            let tools = self.belief.simulator.tools(&scout.parameters, poses);
+            for (tool, gains) in tools.iter().zip(&mut gains) {
+                grid.near(tool, |cell| *gains |= !scout.painted.contains(cell));
+            }
+        }
+        (0..gains.len()).filter(move |&index| gains[index])
+    }
+
+    /// The gain expected of each pose, in cells.
+    fn gains(&self, poses: &[Vec<f64>]) -> Vec<f64> {
+        let votes = self.belief.votes();
+        let mut gains = vec![0.0; poses.len()];
+        let asked = self.ledger.asked();
+        let grid = self.belief.simulator.grid();
+        let silent = SILENT / votes.len() as f64;
+        for (particle, vote) in self.belief.particles.iter().zip(&votes).filter(|(_, vote)| **vote > silent) {
+            let tools = self.belief.simulator.tools(&particle.parameters, poses);
+            for (tool, sum) in tools.iter().zip(&mut gains) {
+                let mut gain = 0.0;
+                grid.near(tool, |cell| gain += f64::from(u8::from(!particle.painted.contains(cell))));
+                if gain <= asked {
+                    *sum += vote * gain;
                 }
-                let parent = &self.particles[index].parameters;
-                parent.iter().zip(&spreads).map(|(p, s)| p + JITTER * s * random.normal()).collect()
-            })
-            .collect();
-        self.renew_poses(random);
-        let tried: Vec<Vec<f64>> = self.ledger.log.iter().map(|t| t.joints.clone()).collect();
-        for (particle, parameters) in self.particles.iter_mut().zip(drawn) {
-            let replay = self.simulator.covers(&parameters, &tried);
-            particle.covers = self.simulator.covers(&parameters, &self.poses);
-            particle.parameters = parameters;
-            particle.painted.clear();
-            particle.log_weight = 0.0;
-            for (cover, verdict) in replay.iter().zip(&self.verdicts) {
-                particle.learn(cover, verdict);
             }
         }
+        gains
     }
+}
 
-    /// A new pool: an even cover with another shift, and poses around those the old particles liked best.
-    fn renew_poses(&mut self, random: &mut RandomStream) {
-        let mut liked = self.chances();
-        liked.sort_by(|a, b| b.0.total_cmp(&a.0));
-        liked.truncate(CENTRES);
-        let local = self.count / LOCAL_SHARE;
-        let mut pool = sobol::poses(&self.space, self.count - local, random);
-        let mut pose = self.space.home();
-        for (_, centre) in liked.iter().cycle().take(local) {
-            self.space.near(&self.poses[*centre], LOCAL_SPREAD, random, &mut pose);
-            if self.space.allows(&pose) {
-                pool.push(pose.clone());
-            }
-        }
-        self.used = vec![false; pool.len()];
-        self.poses = pool;
-    }
+/// The particle with the most votes, the first on ties.
+fn leader(votes: &[f64]) -> usize {
+    (0..votes.len()).reduce(|best, next| if votes[next] > votes[best] { next } else { best }).unwrap_or(0)
+}
+
+/// A particle drawn by its votes.
+fn drawn(votes: &[f64], random: &mut RandomStream) -> usize {
+    let at = random.unit();
+    let mut sum = 0.0;
+    let found = votes.iter().position(|vote| {
+        sum += vote;
+        sum > at
+    });
+    found.unwrap_or(votes.len() - 1)
 }
 
 impl WholeRunMethod for ParticleSpec {
     fn start(&self, run: &RunSetup<'_>) -> Result<Box<dyn WholeRun>, WorldError> {
-        let limit = CoverSpec { max_evaluations: self.max_evaluations, poses: self.poses, max_step_deg: None };
-        let robot = Box::new(UncertainRobot::new(self, run.chain, run.world));
-        let (resets, particles) = (run.world.properties().resets(), self.particles as usize);
-        let space = run.space.clone();
-        Ok(Box::new(ParticleIet::new(limit, resets, space, &run.targets.goals, robot, particles, run.seed)))
+        let surface = run.world.properties().surface.ok_or(WorldError::NoSurface)?;
+        let described = run.world.surface().ok_or(WorldError::NoSurface)?;
+        let robot = Box::new(UncertainRobot::new(self, run.chain, described));
+        Ok(Box::new(ParticleIet::new(self, surface, robot, run)))
     }
 
     fn max_step_deg(&self) -> Option<f64> {
@@ -231,42 +193,16 @@ impl Covering for ParticleIet {
     }
 
     fn pose(&mut self) -> Option<Vec<f64>> {
-        self.next.map(|z| self.poses[z].clone())
+        self.next.clone()
     }
 
     fn learn(&mut self, trial: Trial) {
-        let tried = [trial.joints.clone()];
-        let verdict = self.ledger.tell(trial);
-        if let Some(z) = self.poses.iter().position(|p| *p == tried[0]) {
-            self.used[z] = true;
-        }
-        for particle in &mut self.particles {
-            let cover = self.simulator.covers(&particle.parameters, &tried);
-            particle.learn(&cover[0], &verdict);
-        }
-        self.verdicts.push(verdict);
+        let joints = trial.joints.clone();
+        let effect = self.ledger.tell(trial);
+        let mut random = RandomStream::of_run(self.seed, self.ledger.log.len() as u64 + 1);
+        self.belief.tell(joints, effect, &mut random);
         if !self.ledger.is_over() {
-            self.decide();
-        }
-    }
-}
-
-impl Particle {
-    /// Judges what it expected of a trial by the cells that were seen gained, or else by their number.
-    fn learn(&mut self, cover: &CellSet, verdict: &TrialEffect) {
-        let expected = cover.count_beyond([&self.painted]);
-        let wrong = match (&verdict.fresh, verdict.gain) {
-            (Some(seen), _) => {
-                let missed = cover.count_beyond([&self.painted, seen]);
-                let unexpected = seen.count_beyond([cover]);
-                f64::from(missed + unexpected)
-            }
-            (None, Some(gain)) => (f64::from(expected) - gain).abs(),
-            (None, None) => 0.0,
-        };
-        self.log_weight -= SHARPNESS * wrong;
-        if verdict.accepted {
-            self.painted.extend(verdict.fresh.as_ref().unwrap_or(cover));
+            self.decide(&mut random);
         }
     }
 }

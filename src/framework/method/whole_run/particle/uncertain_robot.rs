@@ -1,26 +1,24 @@
 //! The problem's robot with uncertain link lengths and base, in its coverage world.
 
 use super::{ParticleSpec, Simulator};
-use crate::CellSet;
-use crate::robot::Chain;
-use crate::world::{self, WorldSpec};
+use crate::robot::{Chain, tool_position};
+use crate::world::{CellGrid, CoverageSpec};
+use nalgebra::Vector3;
 
 /// A robot of which each particle draws one; parameters: relative link lengths, then the shift of the base (m).
 pub(super) struct UncertainRobot {
     chain: Chain,
-    world: WorldSpec,
-    cells: usize,
+    grid: CellGrid,
     link_share: f64,
     base_shift_m: f64,
 }
 
 impl UncertainRobot {
-    /// The robot `chain` in `world`, off by the spreads of `spec`.
-    pub fn new(spec: &ParticleSpec, chain: &Chain, world: &WorldSpec) -> Self {
+    /// The robot `chain` before `surface`, off by the spreads of `spec`.
+    pub fn new(spec: &ParticleSpec, chain: &Chain, surface: &CoverageSpec) -> Self {
         Self {
             chain: chain.clone(),
-            world: world.clone(),
-            cells: world.properties().surface.map_or(0, |surface| surface.cells()),
+            grid: CellGrid::new(surface),
             link_share: spec.link_share,
             base_shift_m: spec.base_shift_m,
         }
@@ -33,23 +31,15 @@ impl Simulator for UncertainRobot {
         [links, vec![self.base_shift_m; 3]].concat()
     }
 
-    fn cells(&self) -> usize {
-        self.cells
+    fn grid(&self) -> &CellGrid {
+        &self.grid
     }
 
-    fn covers(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<CellSet> {
+    fn tools(&self, parameters: &[f64], poses: &[Vec<f64>]) -> Vec<Vector3<f64>> {
         let links = self.chain.link_count();
         let scales: Vec<f64> = parameters[..links].iter().map(|p| 1.0 + p).collect();
         let shift = [parameters[links], parameters[links + 1], parameters[links + 2]];
-        let Ok(mut world) = world::build(&self.world, &self.chain.distorted(&scales, shift)) else {
-            return vec![CellSet::empty(self.cells); poses.len()];
-        };
-        let mut seen = vec![0.0; world.features().len()];
-        let mut cover = |pose: &Vec<f64>| {
-            world.reset();
-            world.commit(pose, &mut seen);
-            world.cells().cloned().unwrap_or_default()
-        };
-        poses.iter().map(&mut cover).collect()
+        let chain = self.chain.distorted(&scales, shift);
+        poses.iter().map(|pose| tool_position(&chain, pose)).collect()
     }
 }

@@ -5,20 +5,21 @@
 //! the density of its predicted place at the centres of unpainted cells.
 
 use crate::CellSet;
+use crate::world::Surface;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
 const LENGTH_DEG: f64 = 45.0;
+/// Number of hits, the latest, that predictions are made of.
+const MOST_HITS: usize = 128;
 /// Scatter about a cell's centre of the places of poses that paint it, in cells.
 const SCATTER: f64 = 0.35;
 
-/// Number of rows and columns of a surface whose cells are observed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Grid {
-    /// Number of columns.
-    pub columns: usize,
-    /// Number of rows.
-    pub rows: usize,
+/// Rows and columns of a surface as plane coordinates.
+#[derive(Debug, Clone, Copy)]
+struct Grid {
+    columns: usize,
+    rows: usize,
 }
 
 impl Grid {
@@ -52,7 +53,8 @@ pub(in crate::method::whole_run) struct CellPredictor {
 }
 
 impl CellPredictor {
-    pub fn new(grid: Grid) -> Self {
+    pub fn new(surface: Surface) -> Self {
+        let grid = Grid { columns: surface.columns, rows: surface.rows };
         Self { grid, painted: CellSet::empty(grid.cells()), hits: Vec::new() }
     }
 
@@ -72,20 +74,20 @@ impl CellPredictor {
     /// For each pose, the density of its predicted place at unpainted cells, per cell; `None` before the first hit.
     /// `squared` is the squared distance between two poses, degrees.
     pub fn chances(&self, poses: &[Vec<f64>], squared: impl Fn(&[f64], &[f64]) -> f64) -> Option<Vec<f64>> {
-        let count = self.hits.len();
+        let hits = &self.hits[self.hits.len().saturating_sub(MOST_HITS)..];
+        let count = hits.len();
         let variance = self.grid.variance();
         let kernel = |a: &[f64], b: &[f64]| variance * (-squared(a, b) / (2.0 * LENGTH_DEG * LENGTH_DEG)).exp();
         let noise = SCATTER * SCATTER;
-        let gram = DMatrix::from_fn(count, count, |i, j| {
-            kernel(&self.hits[i].0, &self.hits[j].0) + if i == j { noise } else { 0.0 }
-        });
+        let gram =
+            DMatrix::from_fn(count, count, |i, j| kernel(&hits[i].0, &hits[j].0) + if i == j { noise } else { 0.0 });
         let factor = (count > 0).then(|| gram.cholesky())??;
         let middle = self.grid.middle();
-        let weights = [0, 1].map(|k| factor.solve(&DVector::from_fn(count, |i, _| self.hits[i].1[k] - middle[k])));
+        let weights = [0, 1].map(|k| factor.solve(&DVector::from_fn(count, |i, _| hits[i].1[k] - middle[k])));
         let open: Vec<[f64; 2]> =
             (0..self.grid.cells()).filter(|&c| !self.painted.contains(c)).map(|c| self.grid.place(c)).collect();
         let of = |pose: &Vec<f64>| {
-            let near = DVector::from_fn(count, |i, _| kernel(pose, &self.hits[i].0));
+            let near = DVector::from_fn(count, |i, _| kernel(pose, &hits[i].0));
             let place = [0, 1].map(|k| middle[k] + near.dot(&weights[k]));
             let spread = (variance - near.dot(&factor.solve(&near))).max(0.0) + noise;
             let density = |cell: &[f64; 2]| {
@@ -100,8 +102,13 @@ impl CellPredictor {
 
 #[cfg(test)]
 mod tests {
-    use super::{CellPredictor, Grid};
+    use super::CellPredictor;
     use crate::CellSet;
+    use crate::world::Surface;
+
+    fn seen(columns: usize, rows: usize) -> Surface {
+        Surface { columns, rows, resets: true, cells_seen: true }
+    }
 
     fn squared(a: &[f64], b: &[f64]) -> f64 {
         a.iter().zip(b).map(|(x, y)| (x - y).to_degrees().powi(2)).sum()
@@ -109,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_pose_leads_where_its_neighbours_led() {
-        let mut predictor = CellPredictor::new(Grid { columns: 3, rows: 2 });
+        let mut predictor = CellPredictor::new(seen(3, 2));
         let poses: Vec<Vec<f64>> = [0.0, 0.4, 0.8].map(|q| vec![q]).to_vec();
         assert_eq!(predictor.chances(&poses, squared), None);
         // cells 0 and 2 of the first row; what lies between leads to cell 1
@@ -125,7 +132,7 @@ mod tests {
     #[test]
     fn what_is_gained_but_not_kept_stays_open() {
         let kept = |accepted| {
-            let mut predictor = CellPredictor::new(Grid { columns: 2, rows: 2 });
+            let mut predictor = CellPredictor::new(seen(2, 2));
             predictor.tell(&[0.1], &CellSet::from(vec![0b0001]), accepted);
             predictor.chances(&[vec![0.1]], squared).unwrap()[0]
         };

@@ -7,5 +7,4 @@ pub(super) mod sobol;
 #[cfg(test)]
 mod tests;
 
-pub use cell_predictor::Grid;
 pub use cover::CoverSpec;

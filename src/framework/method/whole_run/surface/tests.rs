@@ -5,17 +5,22 @@ use crate::method::MethodSpec;
 use crate::method::per_goal::StopReason;
 use crate::method::whole_run::ParticleSpec;
 use crate::method::whole_run::model::tests::interrupted;
-use crate::method::whole_run::{Axis, CoverSpec, Grid, NextTrial, SearchIet, Space, Trial, WholeRun};
+use crate::method::whole_run::{Axis, CoverSpec, NextTrial, SearchIet, Space, Trial, WholeRun};
 use crate::preset;
-use crate::world::{SurfaceView, WorldSpec};
+use crate::world::{Surface, SurfaceView, WorldSpec};
 use rstest::rstest;
 
 fn search(poses: u32, max_evaluations: u32) -> MethodSpec {
-    MethodSpec::Search(CoverSpec { max_evaluations, poses, ..CoverSpec::default() })
+    MethodSpec::Search(CoverSpec { max_evaluations: Some(max_evaluations), poses, ..CoverSpec::default() })
 }
 
 fn particle(particles: u32, poses: u32, max_evaluations: u32) -> MethodSpec {
-    MethodSpec::Particle(ParticleSpec { max_evaluations, particles, poses, ..ParticleSpec::default() })
+    MethodSpec::Particle(ParticleSpec {
+        max_evaluations: Some(max_evaluations),
+        particles,
+        poses,
+        ..ParticleSpec::default()
+    })
 }
 
 fn paint(method: MethodSpec, resets: bool, observes: SurfaceView) -> Problem {
@@ -72,6 +77,10 @@ fn a_search_of_one_goal_at_a_time_refuses_what_cannot_be_put_back() {
     assert!(error.contains("sst") && error.contains("particle or search"), "{error}");
 }
 
+fn row_of_four(resets: bool) -> Surface {
+    Surface { columns: 4, rows: 1, resets, cells_seen: true }
+}
+
 /// A strip of four cells along one joint, a quarter of its range each.
 fn strip(q: f64) -> u64 {
     1 << [0.25, 0.5, 0.75].iter().filter(|&&edge| q >= edge).count()
@@ -83,7 +92,7 @@ fn a_gain_of_two_is_refused_while_the_world_can_be_put_back() {
     let space = Space::new(vec![axis]);
     let goals: Vec<Vec<f64>> = (0..5).map(|k| vec![25.0 * f64::from(k)]).collect();
     let spec = CoverSpec { poses: 64, ..CoverSpec::default() };
-    let mut run = SearchIet::new(spec, true, Some(Grid { columns: 4, rows: 1 }), &space, &goals, 1);
+    let mut run = SearchIet::new(&spec, row_of_four(true), &space, &goals, 1);
     let mut told = |gained: u64| {
         let NextTrial::Execute { joints, goal } = run.ask() else { panic!("not over") };
         let observation = Some(vec![25.0 * f64::from(gained.count_ones())]);
@@ -100,7 +109,7 @@ fn seen_cells_lead_to_the_others() {
     let space = Space::new(vec![axis]);
     let goals: Vec<Vec<f64>> = (0..5).map(|k| vec![25.0 * f64::from(k)]).collect();
     let spec = CoverSpec { poses: 64, ..CoverSpec::default() };
-    let mut run = SearchIet::new(spec, false, Some(Grid { columns: 4, rows: 1 }), &space, &goals, 1);
+    let mut run = SearchIet::new(&spec, row_of_four(false), &space, &goals, 1);
     let mut painted = 0;
     while let NextTrial::Execute { joints, goal } = run.ask() {
         painted |= strip(joints[0]);

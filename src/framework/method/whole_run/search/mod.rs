@@ -17,14 +17,18 @@
 //!
 //! Source: L. Stone, Theory of Optimal Search, Academic Press 1975.
 
+mod walk;
+
 use super::planner::{RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::{Axis, Space};
-use super::surface::cell_predictor::{CellPredictor, Grid};
-use super::surface::cover::{CoverSpec, Ledger};
+use super::surface::CoverSpec;
+use super::surface::cell_predictor::CellPredictor;
+use super::surface::cover::Ledger;
 use super::surface::covering::Covering;
 use super::surface::sobol;
 use crate::random::RandomStream;
 use crate::world::{Surface, WorldError};
+use walk::{Step, Walk};
 
 const RADIUS_DEG: f64 = 9.0;
 const LENGTH_DEG: f64 = 20.0;
@@ -36,6 +40,11 @@ const FAR: f64 = 4.0;
 const REFUSED: f64 = 0.2;
 const MISSES: u32 = 30;
 const SHRINK: f64 = 0.85;
+
+/// Number of cells above which the search also walks from pose to pose.
+const FEW_CELLS: usize = 48;
+/// The whole pool is looked at again after this many trials of a walk.
+const LOOK_AGAIN: usize = 8;
 
 /// How much closer a pose is to the middle of the joint ranges than poses are on average, in -2/3..1/3.
 fn amid(space: &Space, pose: &[f64]) -> f64 {
@@ -60,28 +69,31 @@ pub struct SearchIet {
     verdicts: Vec<(usize, bool, bool)>,
     /// Predictor of the cells that poses lead to; `None` if cells are not observed.
     predictor: Option<CellPredictor>,
+    space: Space,
+    seed: u64,
+    /// The walk; `None` on a surface of few cells.
+    walk: Option<Walk>,
+    /// Whether the next trial was proposed.
+    asked: bool,
+    /// The step proposed last; `None` if the last proposal came from the pool.
+    step: Option<Step>,
+    /// The pose of the pool that promised most when it was last looked at, with its expected gain.
+    outlook: Option<(f64, usize)>,
     /// For each pose, the poses in its ball, with B.
     near: Vec<Vec<(u32, f64)>>,
 }
 
 impl SearchIet {
-    /// A run for `goals` (n rows, the share in the first column) over `space`; with `grid` if cells are observed.
+    /// A run for `goals` (n rows, the share in the first column) on `surface` over `space`.
     #[must_use]
-    pub fn new(
-        spec: CoverSpec,
-        resets: bool,
-        grid: Option<Grid>,
-        space: &Space,
-        goals: &[Vec<f64>],
-        seed: u64,
-    ) -> Self {
+    pub fn new(spec: &CoverSpec, surface: Surface, space: &Space, goals: &[Vec<f64>], seed: u64) -> Self {
         let mut random = RandomStream::of_run(seed, 0);
         let poses = sobol::poses(space, spec.poses as usize, &mut random);
         let count = poses.len();
         let mut run = Self {
-            ledger: Ledger::new(spec, resets, goals),
+            ledger: Ledger::new(spec.max_evaluations, surface, goals),
             scale: space.axes.iter().map(|a| a.scale().to_degrees()).collect(),
-            predictor: grid.map(CellPredictor::new),
+            predictor: surface.cells_seen.then(|| CellPredictor::new(surface)),
             used: vec![false; count],
             surv: vec![1.0; count],
             num: poses.iter().map(|pose| PRIOR_HITS * (1.0 + amid(space, pose))).collect(),
@@ -91,6 +103,12 @@ impl SearchIet {
             misses: 0,
             verdicts: Vec::new(),
             near: Vec::new(),
+            space: space.clone(),
+            seed,
+            walk: (surface.cells() > FEW_CELLS).then(Walk::default),
+            asked: false,
+            step: None,
+            outlook: None,
         };
         run.find_near();
         run
@@ -103,6 +121,27 @@ impl SearchIet {
             all.filter(|(_, b)| *b > 0.0).collect::<Vec<_>>()
         };
         self.near = self.poses.iter().map(row).collect();
+    }
+
+    /// The unused pose of the pool with the largest expected gain; `None` if all are used.
+    fn outlook(&self) -> Option<(f64, usize)> {
+        let mut expected: Vec<f64> = (0..self.poses.len()).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
+        let chances = self.predictor.as_ref().and_then(|s| s.chances(&self.poses, |a, b| self.squared(a, b)));
+        if let Some(chances) = chances {
+            expected.iter_mut().zip(chances).for_each(|(e, chance)| *e *= chance);
+        }
+        let mut best = (f64::NEG_INFINITY, None);
+        for z in (0..self.poses.len()).filter(|&z| !self.used[z]) {
+            let (mut sum, mut weight) = (0.0, 0.0);
+            for &(x, b) in &self.near[z] {
+                sum += b * expected[x as usize];
+                weight += b;
+            }
+            if sum / weight > best.0 {
+                best = (sum / weight, Some(z));
+            }
+        }
+        best.1.map(|z| (best.0, z))
     }
 
     fn squared(&self, a: &[f64], b: &[f64]) -> f64 {
@@ -135,10 +174,8 @@ impl SearchIet {
 
 impl WholeRunMethod for CoverSpec {
     fn start(&self, run: &RunSetup<'_>) -> Result<Box<dyn WholeRun>, WorldError> {
-        let world = run.world.properties();
-        let grid = |surface: Surface| Grid { columns: surface.columns, rows: surface.rows };
-        let seen = world.surface.filter(|surface| surface.cells_seen).map(grid);
-        Ok(Box::new(SearchIet::new(self.clone(), world.resets(), seen, run.space, &run.targets.goals, run.seed)))
+        let surface = run.world.properties().surface.ok_or(WorldError::NoSurface)?;
+        Ok(Box::new(SearchIet::new(self, surface, run.space, &run.targets.goals, run.seed)))
     }
 
     fn max_step_deg(&self) -> Option<f64> {
@@ -152,28 +189,29 @@ impl Covering for SearchIet {
     }
 
     fn pose(&mut self) -> Option<Vec<f64>> {
-        let mut expected: Vec<f64> = (0..self.poses.len()).map(|i| self.surv[i] * self.num[i] / self.den[i]).collect();
-        let chances = self.predictor.as_ref().and_then(|s| s.chances(&self.poses, |a, b| self.squared(a, b)));
-        if let Some(chances) = chances {
-            expected.iter_mut().zip(chances).for_each(|(e, chance)| *e *= chance);
+        self.asked = true;
+        let trials = self.ledger.log.len();
+        if self.walk.is_none() || self.step.is_none() || trials.is_multiple_of(LOOK_AGAIN) {
+            self.outlook = self.outlook();
         }
-        let mut best = (f64::NEG_INFINITY, None);
-        for z in (0..self.poses.len()).filter(|&z| !self.used[z]) {
-            let (mut sum, mut weight) = (0.0, 0.0);
-            for &(x, b) in &self.near[z] {
-                sum += b * expected[x as usize];
-                weight += b;
-            }
-            if sum / weight > best.0 {
-                best = (sum / weight, Some(z));
-            }
-        }
-        best.1.map(|z| self.poses[z].clone())
+        let least = self.outlook.map_or(0.0, |best| best.0);
+        let mut random = RandomStream::of_run(self.seed, trials as u64 + 1);
+        self.step = self.walk.as_ref().and_then(|walk| walk.propose(least, &self.space, &mut random));
+        let step = self.step.as_ref().map(|step| step.joints.clone());
+        step.or_else(|| self.outlook.map(|(_, z)| self.poses[z].clone()))
     }
 
     fn learn(&mut self, trial: Trial) {
         let joints = trial.joints.clone();
+        if self.walk.is_some() && !self.asked {
+            // A resumed run is told trials it did not propose.
+            self.pose();
+        }
+        self.asked = false;
         let verdict = self.ledger.tell(trial);
+        if let Some(walk) = &mut self.walk {
+            walk.tell(&joints, verdict.gain.unwrap_or(0.0).max(0.0), self.step.as_ref());
+        }
         let squared: Vec<f64> = self.poses.iter().map(|x| self.squared(&joints, x)).collect();
         let nearest = (0..self.poses.len()).min_by(|&a, &b| squared[a].total_cmp(&squared[b]));
         let Some(nearest) = nearest else { return };
