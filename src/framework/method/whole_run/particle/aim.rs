@@ -14,6 +14,8 @@ const STARTS: usize = 3;
 const STEPS: usize = 6;
 /// Distance from the place within which an aim ends, as a share of the tool's radius.
 const CLOSE: f64 = 0.05;
+/// Distance from the place up to which a pose may still reach it, as the particle may be wrong; as a share of the radius.
+const REACH: f64 = 1.5;
 /// Difference by which derivatives are taken, rad or m.
 const DELTA: f64 = 1e-4;
 /// Damping of a step, m.
@@ -66,7 +68,7 @@ fn aim(
         let tools = simulator.tools(&particle.parameters, &around);
         let miss = place - tools[0];
         if miss.norm() < CLOSE * radius || step == STEPS {
-            return (miss.norm() < radius && space.allows(&pose)).then_some(pose);
+            return (miss.norm() < REACH * radius && space.allows(&pose)).then_some(pose);
         }
         let jacobian = DMatrix::from_fn(3, space.len(), |k, joint| (tools[joint + 1][k] - tools[0][k]) / DELTA);
         let square = &jacobian * jacobian.transpose();

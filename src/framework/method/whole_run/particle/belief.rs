@@ -29,6 +29,11 @@ const MOVES: f64 = 40_000.0;
 const SWEEPS: f64 = 12.0;
 /// Both limits rise by this factor per cell and trial by which the best particle is wrong.
 const MORE: f64 = 8.0;
+/// Of a belief in doubt, one particle in this many stays; the power of the posterior from which all are moved, and the
+/// number of moves of each.
+const BELIEVED: usize = 4;
+const COOL: f64 = 0.02;
+const FRESH: f64 = 40.0;
 /// Share of moves that change one parameter alone, by at most this many standard deviations of the prior, down to this
 /// many powers of ten less.
 const SINGLE: f64 = 0.3;
@@ -97,23 +102,39 @@ impl Belief {
     }
 
     /// Draws the particles anew by their weights and moves them.
-    pub fn renew(&mut self, random: &mut RandomStream) {
+    fn renew(&mut self, random: &mut RandomStream) {
         let (temper, votes) = self.tempered();
         let drawn = systematic(&votes, random);
         self.particles = drawn.iter().map(|&index| self.particles[index].clone()).collect();
         let best = self.particles.iter().map(|p| p.log_posterior).fold(f64::NEG_INFINITY, f64::max);
         let misfit = (-best / (SHARPNESS * self.tried.len() as f64 + 1.0)).min(1.0);
-        let moves = MOVES * (1.0 + MORE * misfit) / (self.particles.len() * self.tried.len().max(1)) as f64;
-        let sweeps = moves.clamp(1.0, SWEEPS * (1.0 + MORE * misfit)).floor();
+        let more = 1.0 + MORE * misfit;
+        let moves = MOVES * more / (self.particles.len() * self.tried.len().max(1)) as f64;
+        self.anneal(temper, moves.clamp(1.0, SWEEPS * more).floor(), random);
+    }
+
+    /// Draws most particles from the prior, in the place of the least likely, and moves all: for a belief that has taken
+    /// the wrong robot for the true one.
+    pub fn doubt(&mut self, random: &mut RandomStream) {
+        self.particles.sort_by(|a, b| b.log_posterior.total_cmp(&a.log_posterior));
+        for index in self.particles.len().div_ceil(BELIEVED)..self.particles.len() {
+            let parameters = self.spreads.iter().map(|s| s * random.normal()).collect();
+            self.particles[index] = self.particle(parameters);
+        }
+        self.anneal(COOL, FRESH, random);
+    }
+
+    /// Moves every particle in each of `sweeps`, from the power `temper` of the posterior, at which the population spreads,
+    /// to the posterior itself.
+    fn anneal(&mut self, temper: f64, sweeps: f64, random: &mut RandomStream) {
         let mut sweep = 0.0;
         while sweep < sweeps {
             sweep += 1.0;
-            // From the temper of the draw, at which the population spreads, to the posterior itself.
-            let temper = temper.powf(1.0 - sweep / sweeps);
+            let power = temper.powf(1.0 - sweep / sweeps);
             for index in 0..self.particles.len() {
                 let moved = self.particle(self.proposal(index, random));
                 let gain = moved.log_posterior - self.particles[index].log_posterior;
-                if random.unit() < (temper * gain).exp() {
+                if random.unit() < (power * gain).exp() {
                     self.particles[index] = moved;
                 }
             }

@@ -31,12 +31,14 @@ const SCOUTS: usize = 8;
 const KEPT: usize = 64;
 /// Weight below which a particle has no say, as a share of the mean.
 const SILENT: f64 = 0.02;
-/// Below this expected gain, in cells, a random pose is tried.
+/// Below this expected gain, in cells, any pose that may lead near an open place is tried.
 const HOPELESS: f64 = 0.02;
 /// After this many hopeless decisions in a row the rest is reported as out of reach, and after this many trials in a row
 /// that gained nothing.
 const PATIENCE: u32 = 12;
 const MISSES: u32 = 40;
+/// After this many the belief is doubted.
+const DOUBT: u32 = 8;
 /// Most trials that are looked at for a pose that was tried before.
 const RECENT: usize = 64;
 
@@ -86,24 +88,18 @@ impl ParticleIet {
     }
 
     fn decide(&mut self, random: &mut RandomStream) {
-        let mut candidates = self.candidates(random);
+        let candidates = self.candidates(random);
         let gains = self.gains(&candidates);
-        let best = (0..candidates.len()).reduce(|best, next| if gains[next] > gains[best] { next } else { best });
-        let Some(best) = best else {
-            self.next = None;
-            return;
-        };
-        let is_hopeless = gains[best] < HOPELESS;
-        self.hopeless = if is_hopeless { self.hopeless + 1 } else { 0 };
-        self.next = match is_hopeless {
-            _ if self.hopeless > PATIENCE || self.ledger.misses() >= MISSES => None,
-            true => random.pick(&self.pool).cloned(),
-            false => Some(candidates[best].clone()),
-        };
         let mut order: Vec<usize> = (0..candidates.len()).collect();
         order.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]).then(a.cmp(&b)));
-        order.truncate(KEPT);
-        self.kept = order.into_iter().map(|z| std::mem::take(&mut candidates[z])).collect();
+        let best = order.first().filter(|&&best| gains[best] >= HOPELESS);
+        self.hopeless = if best.is_none() { self.hopeless + 1 } else { 0 };
+        self.next = match best {
+            _ if self.hopeless > PATIENCE || self.ledger.misses() >= MISSES => None,
+            Some(&best) => Some(candidates[best].clone()),
+            None => random.pick(if candidates.is_empty() { &self.pool } else { &candidates }).cloned(),
+        };
+        self.kept = order.iter().take(KEPT).map(|&index| candidates[index].clone()).collect();
     }
 
     /// Poses to choose from, none of them tried lately.
@@ -201,6 +197,9 @@ impl Covering for ParticleIet {
         let effect = self.ledger.tell(trial);
         let mut random = RandomStream::of_run(self.seed, self.ledger.log.len() as u64 + 1);
         self.belief.tell(joints, effect, &mut random);
+        if self.ledger.misses() % DOUBT == DOUBT - 1 {
+            self.belief.doubt(&mut random);
+        }
         if !self.ledger.is_over() {
             self.decide(&mut random);
         }

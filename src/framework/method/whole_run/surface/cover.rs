@@ -198,3 +198,103 @@ impl Ledger {
         rises.reduce(f64::min).unwrap_or(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Ledger;
+    use crate::method::whole_run::Trial;
+    use crate::world::Surface;
+    use proptest::prelude::*;
+    use rstest::rstest;
+
+    fn ledger(cells: usize, resets: bool, goals: &[f64]) -> Ledger {
+        let surface = Surface { columns: cells, rows: 1, resets, cells_seen: false };
+        Ledger::new(None, surface, &goals.iter().map(|goal| vec![*goal]).collect::<Vec<_>>())
+    }
+
+    /// Tells that `cells` of the surface's are covered after a trial; returns whether it was accepted.
+    fn tell(ledger: &mut Ledger, cells: f64) -> bool {
+        let observation = Some(vec![cells * ledger.cell]);
+        ledger.tell(Trial { joints: vec![cells], observation, cells: None, goal: 0 }).accepted
+    }
+
+    #[rstest]
+    #[case::one_cell(&[0.0, 1.0, 2.0], 1.0)]
+    #[case::the_nearest_to_a_goal_between_cells(&[0.0, 1.6, 3.0], 2.0)]
+    #[case::a_goal_too_near_the_start_is_skipped(&[0.3, 1.0, 2.0], 1.0)]
+    #[case::coarse_goals_leave_room(&[0.0, 40.0, 80.0], 50.0)]
+    fn a_goal_asks_for_the_cells_up_to_it(#[case] goals: &[f64], #[case] asked: f64) {
+        assert_eq!(ledger(100, true, goals).asked(), asked);
+    }
+
+    #[test]
+    fn every_goal_is_served_by_the_nearest_share_and_the_first_by_the_start() {
+        let mut ledger = ledger(100, true, &[0.0, 10.0, 20.0, 30.0]);
+        assert!(tell(&mut ledger, 8.0) && tell(&mut ledger, 11.0) && tell(&mut ledger, 18.0));
+        assert!(!tell(&mut ledger, 18.0), "nothing gained");
+        assert!(tell(&mut ledger, 22.0));
+        let outcomes = ledger.outcomes();
+        let served: Vec<_> = outcomes.iter().map(|outcome| (outcome.trial, outcome.reached)).collect();
+        assert_eq!(served, [(None, true), (Some(1), true), (Some(2), true), (Some(4), false)]);
+        assert_eq!(outcomes[3].distance, 8.0);
+    }
+
+    #[test]
+    fn half_of_one_big_goal_is_not_reached() {
+        let mut ledger = ledger(100, true, &[0.0, 100.0]);
+        tell(&mut ledger, 60.0);
+        assert!(!ledger.outcomes()[1].reached);
+    }
+
+    #[test]
+    fn nothing_observed_serves_nothing() {
+        let mut ledger = ledger(4, true, &[0.0, 25.0]);
+        ledger.tell(Trial { joints: vec![0.0], observation: None, cells: None, goal: 1 });
+        assert!(ledger.outcomes().iter().all(|outcome| !outcome.reached && outcome.distance.is_infinite()));
+    }
+
+    #[rstest]
+    #[case(4, 400)]
+    #[case(600, 2400)]
+    #[case(1 << 20, 10_000)]
+    fn large_surfaces_get_more_evaluations(#[case] cells: usize, #[case] limit: usize) {
+        assert_eq!(ledger(cells, true, &[100.0]).limit, limit);
+    }
+
+    proptest! {
+        /// A tool that always covers several cells, on goals of one cell each: refusals end, so that the run goes on.
+        #[test]
+        fn big_gains_are_not_refused_for_ever(gains in prop::collection::vec(2_u32..9, 40)) {
+            let goals: Vec<f64> = (0..=100).map(f64::from).collect();
+            let mut ledger = ledger(100, true, &goals);
+            let mut shown = 0.0;
+            for gain in gains {
+                let more = f64::min(shown + f64::from(gain), 100.0);
+                if tell(&mut ledger, more) {
+                    shown = more;
+                }
+            }
+            prop_assert!(shown > 60.0, "{shown} cells");
+        }
+
+        #[test]
+        fn trials_serve_goals_in_order_and_none_is_called_reached_far_from_it(
+            goals in prop::collection::vec(0.0..100.0_f64, 1..12),
+            gains in prop::collection::vec(0_u32..9, 1..40),
+        ) {
+            let mut ledger = ledger(100, true, &goals);
+            let mut shown = 0.0;
+            for gain in gains {
+                let more = f64::min(shown + f64::from(gain), 100.0);
+                if tell(&mut ledger, more) {
+                    shown = more;
+                }
+            }
+            let outcomes = ledger.outcomes();
+            prop_assert!(outcomes.iter().map(|outcome| outcome.trial).is_sorted());
+            for outcome in outcomes.iter().filter(|outcome| outcome.reached) {
+                prop_assert!(outcome.distance <= (0.5 * ledger.smallest_rise()).max(0.5) + 1e-5);
+            }
+        }
+    }
+}

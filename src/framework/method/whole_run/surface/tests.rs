@@ -1,13 +1,15 @@
 //! The methods for surfaces on the shipped wall: bounds on evaluations, worlds that cannot be put back, runs resumed.
 
 use crate::execution::{Iet, Problem, run, simulate};
+use crate::generalization::Goals;
 use crate::method::MethodSpec;
 use crate::method::per_goal::StopReason;
 use crate::method::whole_run::ParticleSpec;
 use crate::method::whole_run::model::tests::interrupted;
 use crate::method::whole_run::{Axis, CoverSpec, NextTrial, SearchIet, Space, Trial, WholeRun};
 use crate::preset;
-use crate::world::{Surface, SurfaceView, WorldSpec};
+use crate::world::{CoverageSpec, DisturbanceSpec, Surface, SurfaceView, WorldSpec};
+use proptest::prelude::*;
 use rstest::rstest;
 
 fn search(poses: u32, max_evaluations: u32) -> MethodSpec {
@@ -65,6 +67,76 @@ fn all_that_is_done_to_a_surface_that_cannot_be_put_back_stays(
             (goal.observation[0] - 6.25 * goal.index as f64).abs() < 3.0
         );
     }
+}
+
+/// A wall of many cells, wherever it is: what is claimed is what the accepted poses paint in a fresh world, every accepted
+/// trial adds to it, and there is progress.
+fn walls() -> impl Strategy<Value = CoverageSpec> {
+    let step = 0.02..0.06_f64;
+    let tilt = || -0.015..0.015_f64;
+    (step.clone(), step, 8..24_u32, 8..24_u32, tilt(), tilt(), any::<bool>()).prop_map(
+        |(column, row, columns, rows, forward, aside, seen)| CoverageSpec {
+            origin_m: [0.55, -0.5 - 0.5 * column * f64::from(columns), 0.6 - 0.5 * row * f64::from(rows)],
+            column_step_m: [forward, column, 0.0],
+            row_step_m: [aside, 0.0, row],
+            columns,
+            rows,
+            radius_m: 0.07,
+            resets: true,
+            observes: if seen { SurfaceView::Cells } else { SurfaceView::Percent },
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 6, ..ProptestConfig::default() })]
+    #[test]
+    fn what_is_claimed_is_painted_and_there_is_progress(wall in walls(), goals in 2..30_u32, seed in 0..1000_u64) {
+        for (method, least) in [(search(512, 150), 5.0), (particle(20, 256, 30), 20.0)] {
+            let mut problem = paint(method, true, SurfaceView::Percent);
+            let share = |k| vec![100.0 * f64::from(k) / f64::from(goals - 1)];
+            problem.goals = Goals::new(problem.goals.features().to_vec(), &(0..goals).map(share).collect::<Vec<_>>()).unwrap();
+            problem.world = WorldSpec::Coverage(wall.clone());
+            let mut iet = Iet::new(&problem, seed).unwrap();
+            let mut world = iet.world().unwrap();
+            simulate(&mut iet, world.as_mut(), u64::MAX).unwrap();
+            world.reset();
+            let mut seen = vec![0.0; world.features().len()];
+            let mut before = 0.0;
+            for pose in iet.prefix() {
+                world.commit(pose, &mut seen);
+                prop_assert!(seen[0] > before, "a pose that adds nothing was accepted");
+                before = seen[0];
+            }
+            prop_assert_eq!(iet.finish().unwrap().painted_percent, Some(before));
+            prop_assert!(before > least, "{} %", before);
+        }
+    }
+}
+
+#[test]
+fn a_wall_of_600_cells_is_painted_by_few_poses_of_several_cells() {
+    let mut problem = paint(MethodSpec::Particle(ParticleSpec::default()), true, SurfaceView::Percent);
+    problem.execution.reality =
+        Some(DisturbanceSpec { link_share: 0.05, base_shift_m: 0.02, ..DisturbanceSpec::default() });
+    if let WorldSpec::Coverage(wall) = &mut problem.world {
+        (wall.columns, wall.rows, wall.radius_m) = (30, 20, 0.06);
+        (wall.origin_m, wall.column_step_m, wall.row_step_m) = ([0.6, -0.7, 0.4], [0.0, 0.014, 0.0], [0.0, 0.0, 0.02]);
+    }
+    let result = run(&problem, 3).unwrap();
+    assert!(result.painted_percent >= Some(95.0), "{:?} %", result.painted_percent);
+    assert!(result.evaluations < 100, "{} evaluations", result.evaluations);
+}
+
+#[test]
+fn the_start_shows_the_first_goal_and_goals_between_cells_are_served_by_the_nearest() {
+    let mut problem = paint(MethodSpec::Particle(ParticleSpec::default()), true, SurfaceView::Percent);
+    let goals = [1.0, 8.0, 20.0, 29.0, 62.0, 100.0].map(|share| vec![share]);
+    problem.goals = Goals::new(problem.goals.features().to_vec(), &goals).unwrap();
+    let result = run(&problem, 5).unwrap();
+    let shown: Vec<f64> = result.goals.iter().map(|goal| goal.observation[0]).collect();
+    assert_eq!(shown, [0.0, 6.25, 18.75, 31.25, 62.5, 100.0]);
+    assert!(result.goals.iter().all(|goal| goal.stop_reason == StopReason::Tolerance));
 }
 
 #[test]
