@@ -156,11 +156,11 @@ catalogue! {
     /// One Gaussian process of the feature map plans the whole run: a dozen evaluations. Each trial is the pose expected
     /// nearest to a goal; a goal out of reach is reported with its best residual.
     Model(ModelSpec) = "model", "MODEL-IET", whole_run;
-    /// A surface with the described robot as an uncertain simulator: about one evaluation per cell. Many slightly different
-    /// robots vote for the next pose, and each trial reweighs them.
+    /// A surface with the described robot as an uncertain simulator: about one evaluation per pose of the cover. Many slightly
+    /// different robots vote for the next pose, and each trial reweighs them.
     Particle(ParticleSpec) = "particle", "PARTICLE-IET", whole_run;
     /// A surface with nothing known: each trial goes where past trials leave the best chance of a new cell. About four times
-    /// the evaluations of PARTICLE-IET.
+    /// the evaluations of PARTICLE-IET on a dozen cells, ten times on hundreds.
     Search(CoverSpec) = "search", "SEARCH-IET", whole_run;
 }
 

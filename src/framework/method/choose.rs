@@ -4,6 +4,7 @@
 //! - features that follow the pose: a model takes 14 to 20 evaluations, CMA-ES 920; if evaluations cost nothing, CMA-ES
 //!   to 0.1 % of the joints' ranges ends 2 mm above what can be reached (146 mm of 144 mm, 2700 evaluations);
 //! - a surface: particles 16 evaluations for 16 cells; the search 182 for 99 % of them; CMA-ES all of them in 437;
+//!   with hundreds of cells one pose per goal is too few, and the search goes on whatever the goals are;
 //! - constraints that judge a population, or penalties: CMA-ES 870 evaluations to 209 mm, PSO 5800 to 202 mm, SST 21000
 //!   to 157 mm; on a surface CMA-ES 195 for all cells, SST 228 for 97 %.
 
@@ -16,6 +17,9 @@ use serde::{Deserialize, Serialize};
 
 /// Precision of a search whose evaluations cost nothing, as a share of each joint's range.
 const FREE_PRECISION: f64 = 0.001;
+
+/// Most cells of a surface that methods of one pose per goal are chosen for.
+const FEW_CELLS: usize = 48;
 
 /// The method that was chosen for a problem, and why.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,11 +50,11 @@ pub fn choose(wishes: &AutoSpec, needs_population: bool, world: &WorldProperties
             "A surface is to be covered and the robot's description may be used: each trial is the pose that most of many \
              slightly different simulated robots expect to cover one new place, about one trial per place.",
         ),
-        (true, false, true) => (
+        (true, false, true) if world.surface.is_some_and(|surface| surface.cells() <= FEW_CELLS) => (
             MethodSpec::CmaEs(CmaEsSpec::default()),
             "A surface is to be covered and trials cost nothing: CMA-ES goes on until every place is covered.",
         ),
-        (true, false, false) => (
+        (true, false, _) => (
             MethodSpec::Search(CoverSpec::default()),
             "A surface is to be covered and nothing may be assumed of the robot: each trial is where past trials leave the \
              best chance of covering a new place.",

@@ -182,14 +182,14 @@ impl Ledger {
         }
         let near = 0.5 * self.smallest_rise();
         let mut first = 0;
-        let mut outcome = |goal: &f64| {
+        let outcome = |goal: &f64| {
             let away = |step: usize| (steps[step].1 - goal).abs();
             first = (first..steps.len()).reduce(|best, step| if away(step) < away(best) { step } else { best })?;
             let is_passed = self.level >= goal - 0.5 - SLACK;
             let reached = away(first) <= 0.5 + SLACK || (is_passed && away(first) < near);
             Some(GoalOutcome { trial: steps[first].0, distance: away(first) * self.cell, reached })
         };
-        self.goals.iter().filter_map(|goal| outcome(goal)).collect()
+        self.goals.iter().filter_map(outcome).collect()
     }
 
     /// Smallest rise from one goal to the next, in cells; 0 if there is none.

@@ -114,15 +114,28 @@ proptest! {
     }
 }
 
-#[test]
-fn a_wall_of_600_cells_is_painted_by_few_poses_of_several_cells() {
-    let mut problem = paint(MethodSpec::Particle(ParticleSpec::default()), true, SurfaceView::Percent);
-    problem.execution.reality =
-        Some(DisturbanceSpec { link_share: 0.05, base_shift_m: 0.02, ..DisturbanceSpec::default() });
+/// The wall as 20 x 30 cells, of which the tool covers several at once.
+fn fine(mut problem: Problem) -> Problem {
     if let WorldSpec::Coverage(wall) = &mut problem.world {
         (wall.columns, wall.rows, wall.radius_m) = (30, 20, 0.06);
         (wall.origin_m, wall.column_step_m, wall.row_step_m) = ([0.6, -0.7, 0.4], [0.0, 0.014, 0.0], [0.0, 0.0, 0.02]);
     }
+    problem
+}
+
+#[test]
+fn a_resumed_walk_gives_the_same_bits() {
+    let problem = fine(paint(search(256, 60), true, SurfaceView::Percent));
+    let whole = run(&problem, 3).unwrap();
+    assert!(whole.painted_percent > Some(10.0), "{:?} %", whole.painted_percent);
+    assert_eq!(interrupted(&problem, 3, 45), whole);
+}
+
+#[test]
+fn a_wall_of_600_cells_is_painted_by_few_poses_of_several_cells() {
+    let mut problem = fine(paint(MethodSpec::Particle(ParticleSpec::default()), true, SurfaceView::Percent));
+    problem.execution.reality =
+        Some(DisturbanceSpec { link_share: 0.05, base_shift_m: 0.02, ..DisturbanceSpec::default() });
     let result = run(&problem, 3).unwrap();
     assert!(result.painted_percent >= Some(95.0), "{:?} %", result.painted_percent);
     assert!(result.evaluations < 100, "{} evaluations", result.evaluations);
