@@ -1,6 +1,6 @@
 //! Results of an execution, goal by goal, and progress of a running one.
 
-use super::path::PathPose;
+use super::path::{Executed, PathPose};
 use crate::method::per_goal::{Provenance, StopReason, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -96,6 +96,12 @@ pub struct RunResult {
     pub path: Vec<PathPose>,
     /// SHA-256 (hex) of each goal's joints, evaluations and discrepancy, to the last bit.
     pub digest: String,
+}
+
+impl GoalResult {
+    pub(super) fn executed(&self) -> Executed<'_> {
+        Executed { joints: &self.joints, observation: Some(&self.observation) }
+    }
 }
 
 fn satisfied() -> bool {

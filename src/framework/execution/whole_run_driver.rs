@@ -3,7 +3,7 @@
 
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
-use super::path::{Executed, PathPose, path};
+use super::path::{Executed, PathPose, along_effects, along_goals};
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
 use crate::constraint::Proposal;
@@ -96,15 +96,20 @@ impl WholeRunDriver {
         kept.map(|&index| &self.method.log()[index]).find_map(|trial| Some(trial.observation.as_ref()?[0]))
     }
 
-    /// The path of a finished run: every trial whose effect stays, or one pose per goal if none does.
-    pub fn path(&mut self) -> Vec<PathPose> {
-        let served: Vec<usize> = self.method.outcomes().iter().filter_map(|outcome| outcome.trial).collect();
+    /// The path of a run that has ended with `results`: every trial whose effect stays, or one pose per goal.
+    pub fn path(&mut self, setup: &Setup, results: &[GoalResult]) -> Vec<PathPose> {
+        if setup.painted.is_none() {
+            return along_goals(results.iter().map(GoalResult::executed));
+        }
+        let served: Vec<Option<usize>> = self.method.outcomes().iter().map(|outcome| outcome.trial).collect();
         let log = self.method.log();
         let executed = |index: usize| {
             let trial: &Trial = &log[index];
             Executed { joints: &trial.joints, observation: trial.observation.as_deref() }
         };
-        path(executed, &served, self.method.accepted())
+        let untouched = vec![0.0; setup.select.len()];
+        let start = Executed { joints: setup.chain.home(), observation: Some(&untouched) };
+        along_effects(executed, start, &served, self.method.accepted())
     }
 
     /// The results of all goals, once the method has finished.

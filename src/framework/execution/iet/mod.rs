@@ -15,7 +15,7 @@ mod tell;
 use super::discrepancy::PartialDiscrepancy;
 use super::error::ProblemError;
 use super::goal_search::GoalSearch;
-use super::path::{Executed, PathPose, path};
+use super::path::{PathPose, along_goals};
 use super::result::{GoalResult, Progress, RunResult, digest};
 use super::setup::Setup;
 use super::state::GoalState;
@@ -191,14 +191,9 @@ impl Iet {
     }
 
     fn path(&mut self) -> Vec<PathPose> {
-        if let Search::WholeRun(driver) = &mut self.search {
-            return driver.path();
+        match &mut self.search {
+            Search::WholeRun(driver) => driver.path(&self.setup, &self.results),
+            Search::PerGoal { .. } => along_goals(self.results.iter().map(GoalResult::executed)),
         }
-        let goals: Vec<usize> = (0..self.results.len()).collect();
-        let executed = |index: usize| {
-            let GoalResult { joints, observation, .. } = &self.results[index];
-            Executed { joints, observation: Some(observation) }
-        };
-        path(executed, &goals, &[])
     }
 }
