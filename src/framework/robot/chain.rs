@@ -219,7 +219,7 @@ impl Chain {
     }
 }
 
-fn motion(kind: JointKind, axis: &nalgebra::Unit<Vector3<f64>>, value: f64) -> Isometry3<f64> {
+pub(super) fn motion(kind: JointKind, axis: &nalgebra::Unit<Vector3<f64>>, value: f64) -> Isometry3<f64> {
     if kind == JointKind::Prismatic {
         Isometry3::from_parts(Translation3::from(axis.into_inner() * value), UnitQuaternion::identity())
     } else {

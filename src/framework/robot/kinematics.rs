@@ -66,28 +66,63 @@ pub fn tool_position(chain: &Chain, joints: &[f64]) -> Vector3<f64> {
     p
 }
 
-/// `X_BT`: the tool's pose in the base frame; leaves the joint frames of this pose in `workspace`.
-///
-/// # Panics
-/// If `joints` is shorter than the chain or `workspace` belongs to another chain.
-pub fn forward_kinematics(chain: &Chain, joints: &[f64], workspace: &mut Workspace) -> Isometry3<f64> {
+/// One joint's motion during a walk from base to tip, in the base frame.
+struct Moved {
+    axis: Vector3<f64>,
+    /// Joint origin before the joint's own motion.
+    pivot: Vector3<f64>,
+    /// Rotation of the frame that the joint moves.
+    rotation: Matrix3<f64>,
+    /// Origin of the frame that the joint moves.
+    origin: Vector3<f64>,
+}
+
+/// Walks from base to tip, hands each step's motion to `visit`, and returns the last frame's rotation and origin.
+#[inline]
+fn walk(chain: &Chain, joints: &[f64], mut visit: impl FnMut(usize, &Moved)) -> (Matrix3<f64>, Vector3<f64>) {
     let mut rotation = Matrix3::identity();
     let mut origin = Vector3::zeros();
-    for (step, frame) in chain.steps.iter().zip(&mut workspace.frames) {
+    for (index, step) in chain.steps.iter().enumerate() {
         origin += rotation * step.translation;
         rotation *= step.rotation;
         let axis = rotation * step.axis;
-        *frame = (axis, origin);
+        let pivot = origin;
         let q = joint_position(step, joints);
         if step.prismatic {
             origin += axis * q;
         } else {
             rotation *= Rotation3::from_axis_angle(&nalgebra::Unit::new_unchecked(step.axis), q).into_inner();
         }
+        visit(index, &Moved { axis, pivot, rotation, origin });
     }
-    origin += rotation * chain.tool.translation.vector;
-    let orientation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
-    Isometry3::from_parts(Translation3::from(origin), orientation * chain.tool.rotation)
+    (rotation, origin)
+}
+
+fn unit_quaternion(rotation: Matrix3<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation))
+}
+
+/// `X_BT`: the tool's pose in the base frame; leaves the joint frames of this pose in `workspace`.
+///
+/// # Panics
+/// If `joints` is shorter than the chain or `workspace` belongs to another chain.
+pub fn forward_kinematics(chain: &Chain, joints: &[f64], workspace: &mut Workspace) -> Isometry3<f64> {
+    let frames = &mut workspace.frames;
+    let (rotation, origin) = walk(chain, joints, |index, moved| frames[index] = (moved.axis, moved.pivot));
+    let origin = origin + rotation * chain.tool.translation.vector;
+    Isometry3::from_parts(Translation3::from(origin), unit_quaternion(rotation) * chain.tool.rotation)
+}
+
+/// `X_BF` of every frame F of a [`Placement`](super::Placement): `frames[0]` is the base itself, `frames[k]` the frame
+/// that the chain's joint k moves.
+///
+/// # Panics
+/// If `joints` is shorter than the chain or `frames` than [`Chain::frames`].
+pub fn moving_frames(chain: &Chain, joints: &[f64], frames: &mut [Isometry3<f64>]) {
+    frames[0] = Isometry3::identity();
+    walk(chain, joints, |index, moved| {
+        frames[index + 1] = Isometry3::from_parts(Translation3::from(moved.origin), unit_quaternion(moved.rotation));
+    });
 }
 
 /// `J` (6 x n, geometric, base frame): rows 0-2 d`p_BT`/dq (m/rad or m/m), rows 3-5 angular velocity (rad/rad).

@@ -5,7 +5,8 @@
 
 use super::check::check;
 use super::error::ModelError;
-use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
+use super::geometry::{LinkGeometry, pose};
+use nalgebra::{Isometry3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -91,6 +92,7 @@ pub struct Joint {
 pub struct RobotModel {
     name: String,
     links: Vec<String>,
+    geometry: Vec<LinkGeometry>,
     joints: Vec<Joint>,
     parent_joint: Vec<Option<usize>>,
     root: usize,
@@ -127,7 +129,8 @@ impl RobotModel {
             });
         }
         let root = parent_joint.iter().position(Option::is_none).ok_or(ModelError::NoLink)?;
-        Ok(Self { name: robot.name, links, joints, parent_joint, root })
+        let geometry = robot.links.iter().map(LinkGeometry::read).collect();
+        Ok(Self { name: robot.name, links, geometry, joints, parent_joint, root })
     }
 
     /// Name of the robot in the URDF.
@@ -140,6 +143,12 @@ impl RobotModel {
     #[must_use]
     pub fn links(&self) -> &[String] {
         &self.links
+    }
+
+    /// Shapes of each link, in the order of [`links`](Self::links).
+    #[must_use]
+    pub fn geometry(&self) -> &[LinkGeometry] {
+        &self.geometry
     }
 
     /// Joints, in the URDF's order.
@@ -197,11 +206,6 @@ fn kind_of(kind: &urdf_rs::JointType) -> JointKind {
         urdf_rs::JointType::Planar => JointKind::Planar,
         urdf_rs::JointType::Spherical => JointKind::Spherical,
     }
-}
-
-fn pose(origin: &urdf_rs::Pose) -> Isometry3<f64> {
-    let [roll, pitch, yaw] = origin.rpy.0;
-    Isometry3::from_parts(Translation3::from(origin.xyz.0), UnitQuaternion::from_euler_angles(roll, pitch, yaw))
 }
 
 /// Follows mimics of mimics to the leading joint; the tree check has excluded cycles.
