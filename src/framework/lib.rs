@@ -10,6 +10,7 @@
 #![warn(missing_docs)]
 
 pub mod cells;
+pub mod collision;
 pub mod constraint;
 pub mod demonstration;
 pub mod distance;

@@ -61,6 +61,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "infinite_as_null",
         ],
     ),
+    ("framework/collision", &["collision", "world", "robot", "range", "tagged"]),
     ("framework/constraint", &["constraint", "method", "robot", "random", "range", "tagged"]),
     (
         "framework/execution",
