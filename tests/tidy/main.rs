@@ -61,8 +61,8 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "infinite_as_null",
         ],
     ),
-    ("framework/collision", &["collision", "world", "robot", "range", "tagged"]),
-    ("framework/constraint", &["constraint", "method", "robot", "random", "range", "tagged"]),
+    ("framework/collision", &["collision", "world", "robot", "random", "range", "tagged"]),
+    ("framework/constraint", &["constraint", "collision", "method", "world", "robot", "random", "range", "tagged"]),
     (
         "framework/execution",
         &[

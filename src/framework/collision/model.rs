@@ -5,11 +5,15 @@ use super::links::{self, ShapeNote};
 use super::obstacle::Obstacle;
 use super::options::{CollisionOptions, HomeContacts};
 use super::pairs::{self, ExcludedPair, Exclusion, Owners, Pair, TOOL};
-use super::solid::{Solid, Surround, distance, pose, separation};
+use super::solid::{Solid, Surround, distance, pose, separation, signed_distance};
+use crate::random::RandomStream;
 use crate::robot::{Chain, RobotModel, moving_frames};
 use nalgebra::{Isometry3, Vector3};
 use parry3d_f64::math::Pose;
 use std::collections::BTreeSet;
+
+/// Number of random poses that tell shapes that overlap by design from those that meet at home only.
+const POSES: u32 = 200;
 
 /// Solids of a robot and of its surroundings, and the pairs that are checked.
 #[derive(Debug, Clone)]
@@ -30,7 +34,7 @@ pub struct Workspace {
     frames: Vec<Isometry3<f64>>,
     /// Pose of each solid in the base frame.
     pub(super) poses: Vec<Pose>,
-    /// Per pair: bound of its relative motion over a whole joint motion, m.
+    /// Per pair: bound of its relative motion over a whole joint motion, m; empty before the first motion.
     pub(super) travel_m: Vec<f64>,
     /// Joint positions of the current check.
     pub(super) joints: Vec<f64>,
@@ -91,13 +95,29 @@ impl CollisionModel {
         Ok(built)
     }
 
-    /// Pairs of links, or of a link and the tool, that are in contact at home.
+    /// Pairs of links, or of a link and the tool, whose shapes overlap by design: in contact at home and at no less than
+    /// half of [`POSES`] random poses. A home pose in which the robot folds into itself thus excludes nothing.
     fn touching_at_home(&self, tool: usize) -> Owners {
         let mut workspace = self.workspace();
         self.place(self.chain.home(), &mut workspace);
-        let touches = |pair: &&Pair| self.distance(**pair, &workspace) <= self.margin_m;
-        let owners = self.pairs.iter().filter(touches).map(|pair| self.owners(*pair));
-        owners.filter(|[_, second]| *second <= tool).collect()
+        let mut contacts: Vec<(Pair, u32)> = self.pairs.iter().map(|&pair| (pair, 0)).collect();
+        contacts.retain(|(pair, _)| self.owners(*pair)[1] <= tool && self.touches(*pair, &workspace));
+        if contacts.is_empty() {
+            return Owners::new();
+        }
+        let mut random = RandomStream::new(0, 0);
+        for _ in 0..POSES {
+            let pose: Vec<f64> = self.chain.genes().iter().map(|g| random.between(g.lower, g.upper)).collect();
+            self.place(&pose, &mut workspace);
+            for (pair, count) in &mut contacts {
+                *count += u32::from(self.touches(*pair, &workspace));
+            }
+        }
+        contacts.into_iter().filter(|(_, count)| 2 * count >= POSES).map(|(pair, _)| self.owners(pair)).collect()
+    }
+
+    fn touches(&self, pair: Pair, workspace: &Workspace) -> bool {
+        self.separation(pair, workspace) <= self.margin_m && self.distance(pair, workspace) <= self.margin_m
     }
 
     /// Excluded pairs that would otherwise be checked, each with its first reason.
@@ -121,7 +141,7 @@ impl CollisionModel {
         Workspace {
             frames: vec![Isometry3::identity(); self.chain.frames()],
             poses: self.solids.iter().map(|solid| solid.local).collect(),
-            travel_m: vec![0.0; self.pairs.len()],
+            travel_m: Vec::new(),
             joints: vec![0.0; self.chain.len()],
         }
     }
@@ -176,8 +196,28 @@ impl CollisionModel {
     /// As [`check`](Self::check).
     pub fn collides(&self, joints: &[f64], workspace: &mut Workspace) -> bool {
         self.place(joints, workspace);
-        let is_near = |pair: Pair| self.separation(pair, workspace) <= self.margin_m;
-        self.pairs.iter().any(|&pair| is_near(pair) && self.distance(pair, workspace) <= self.margin_m)
+        self.pairs.iter().any(|&pair| self.touches(pair, workspace))
+    }
+
+    /// Clearance, m, that the worst pair lacks at `joints`: the margin minus its distance, where the distance of two
+    /// shapes that overlap is minus the depth of the penetration. Above 0 exactly if the pose [`collides`](Self::collides).
+    ///
+    /// # Panics
+    /// As [`check`](Self::check).
+    pub fn lack_m(&self, joints: &[f64], workspace: &mut Workspace) -> f64 {
+        self.place(joints, workspace);
+        let pairs = self.pairs.iter().filter(|pair| self.touches(**pair, workspace));
+        let lack = pairs.map(|&Pair { first, second }| {
+            let poses = [&workspace.poses[first], &workspace.poses[second]];
+            self.margin_m - signed_distance([&self.solids[first], &self.solids[second]], poses)
+        });
+        lack.map(|lack| lack.max(f64::MIN_POSITIVE)).fold(0.0, f64::max)
+    }
+
+    /// Distance that every pair keeps, m.
+    #[must_use]
+    pub fn margin_m(&self) -> f64 {
+        self.margin_m
     }
 
     /// Places every moving solid for `joints`.

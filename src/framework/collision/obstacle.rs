@@ -18,6 +18,7 @@ const MIN_SPREAD_M: f64 = 1e-6;
 
 /// A named obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// Name in reports, unlike those of the links and of other obstacles.
@@ -29,11 +30,12 @@ pub struct Obstacle {
 tagged! {
     /// Shape and place of an obstacle.
     #[derive(Debug, Clone, PartialEq, Serialize)]
+    #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
     #[serde(tag = "kind", rename_all = "snake_case")]
     pub enum ObstacleShape {
-        /// A box.
+        /// Cuboid, which may be turned.
         Box(BoxObstacle),
-        /// A sphere.
+        /// Ball.
         Sphere(SphereObstacle),
         /// The convex hull of points.
         Hull(HullObstacle),
@@ -42,31 +44,34 @@ tagged! {
     }
 }
 
-/// A box.
+/// Cuboid, which may be turned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BoxObstacle {
     /// Full lengths of the sides, metres (> 0).
     pub size_m: [f64; 3],
     /// Centre, base frame, metres.
-    pub centre_m: [f64; 3],
+    pub center_m: [f64; 3],
     /// Roll, pitch and yaw as in a URDF, rad.
     #[serde(default)]
     pub rpy_rad: [f64; 3],
 }
 
-/// A sphere.
+/// Ball.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SphereObstacle {
     /// Centre, base frame, metres.
-    pub centre_m: [f64; 3],
+    pub center_m: [f64; 3],
     /// Radius, metres (> 0).
     pub radius_m: f64,
 }
 
 /// The convex hull of points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct HullObstacle {
     /// 4 to 4096 points that are not in a plane, base frame, metres.
@@ -75,6 +80,7 @@ pub struct HullObstacle {
 
 /// Everything behind a plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct HalfSpaceObstacle {
     /// A point of the plane, base frame, metres.
@@ -101,17 +107,17 @@ impl Obstacle {
         match &self.shape {
             ObstacleShape::Box(spec) => {
                 lengths("size_m", &spec.size_m)?;
-                place("centre_m", &spec.centre_m)?;
+                place("center_m", &spec.center_m)?;
                 Range::from(-1e3..=1e3).check_each("rpy_rad", Some("rad"), &spec.rpy_rad).map_err(wrong)?;
                 let [roll, pitch, yaw] = spec.rpy_rad;
                 let turned = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-                let x_f = Isometry3::from_parts(Translation3::from(spec.centre_m), turned);
+                let x_f = Isometry3::from_parts(Translation3::from(spec.center_m), turned);
                 Ok(Solid::cuboid(around(x_f), spec.size_m))
             }
             ObstacleShape::Sphere(spec) => {
                 lengths("radius_m", &[spec.radius_m])?;
-                place("centre_m", &spec.centre_m)?;
-                Ok(Solid::sphere(around(at(spec.centre_m)), spec.radius_m))
+                place("center_m", &spec.center_m)?;
+                Ok(Solid::sphere(around(at(spec.center_m)), spec.radius_m))
             }
             ObstacleShape::Hull(spec) => {
                 place("points_m", spec.points_m.as_flattened())?;

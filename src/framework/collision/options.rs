@@ -6,9 +6,11 @@ use serde::{Deserialize, Serialize};
 
 /// Treatment of pairs of links that are in contact at the chain's home pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum HomeContacts {
-    /// They are excluded and reported: their shapes are taken to overlap by design, as MoveIt's setup assistant does.
+    /// Pairs that are in contact at most other poses too are excluded and reported: their shapes overlap by design. The
+    /// rest is checked.
     #[default]
     Exclude,
     /// They are checked as all others.

@@ -27,7 +27,7 @@ pub enum Exclusion {
 pub struct ExcludedPair {
     /// Names of links or obstacles.
     pub names: [String; 2],
-    /// Reason.
+    /// Reason why it is not checked.
     pub reason: Exclusion,
 }
 

@@ -100,6 +100,19 @@ pub(super) fn distance([a, b]: [&Solid; 2], [x_a, x_b]: [&Pose; 2]) -> f64 {
     (cores - a.skin_m - b.skin_m).max(0.0)
 }
 
+/// Distance of two solids at the given poses, m; minus the depth of the penetration if they overlap, or 0 where the
+/// search for that depth (expanding polytopes, van den Bergen 2001) does not converge.
+pub(super) fn signed_distance([a, b]: [&Solid; 2], [x_a, x_b]: [&Pose; 2]) -> f64 {
+    let apart = distance([a, b], [x_a, x_b]);
+    if apart > 0.0 {
+        return apart;
+    }
+    let x_ab = x_a.inv_mul(x_b);
+    let found = DefaultQueryDispatcher.contact(&x_ab, &*a.core, &*b.core, a.skin_m + b.skin_m);
+    let cores = found.ok().flatten().map_or(0.0, |contact| contact.dist);
+    (cores - a.skin_m - b.skin_m).min(0.0)
+}
+
 /// parry's form of a pose.
 pub(super) fn pose(x: &Isometry3<f64>) -> Pose {
     let q = x.rotation.coords;

@@ -1,11 +1,12 @@
-//! The swept check of a straight joint motion, by conservative advancement (Mirtich 1996, "Impulse-based dynamic
+//! The swept check of a straight or any other joint motion, by conservative advancement (Mirtich 1996, "Impulse-based dynamic
 //! simulation of rigid body systems", section 2.3).
 
 use super::model::{CollisionModel, Workspace};
 use crate::robot::travel_bound;
 
-/// Share of a proved-free stride that is taken; the rest covers the rounding of distances (below 1e-7 of them).
-const SHARE: f64 = 1.0 - 1e-6;
+/// Share of a proved-free stride that is taken. The rest covers the tolerance of the search for closest points, whose
+/// distances are up to 1e-5 of them too large between round shapes; the margin covers it at contact.
+const SHARE: f64 = 1.0 - 1e-3;
 
 /// The first contact of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,21 +34,59 @@ impl CollisionModel {
     /// # Panics
     /// As [`check`](Self::check), for both ends.
     pub fn check_motion(&self, from: &[f64], to: &[f64], workspace: &mut Workspace) -> Option<MotionCollision<'_>> {
-        let mut longest: f64 = 0.0;
-        for solid in self.solids.iter().filter(|solid| solid.frame > 0) {
-            longest = longest.max(travel_bound(&self.chain, from, to, [0, solid.frame], solid.reach_m()));
-        }
-        for (&pair, travel) in self.pairs.iter().zip(&mut workspace.travel_m) {
+        let travel = |frames, reach_m| travel_bound(&self.chain, from, to, frames, reach_m);
+        let pose = |at: f64, joints: &mut [f64]| {
+            for (q, (a, b)) in joints.iter_mut().zip(from.iter().zip(to)) {
+                *q = if at == 1.0 { *b } else { a + at * (b - a) };
+            }
+        };
+        self.first_contact(travel, pose, workspace)
+    }
+
+    /// The first contact of any motion `q(s)`, 0 <= s <= 1, such as a blended one; `None` if it is free. `curve` writes
+    /// the n joints at s; `rates` bounds |dq/ds| of each joint over the whole motion, rad or m.
+    ///
+    /// The checks are spaced as those of [`check_motion`](Self::check_motion), with the paths of a motion in which every
+    /// joint moves at its bound all the time.
+    ///
+    /// # Panics
+    /// As [`check`](Self::check), for every pose of the curve.
+    pub fn check_curve(
+        &self,
+        curve: impl FnMut(f64, &mut [f64]),
+        rates: &[f64],
+        workspace: &mut Workspace,
+    ) -> Option<MotionCollision<'_>> {
+        let mut curve = curve;
+        let mut start = vec![0.0; self.chain.len()];
+        curve(0.0, &mut start);
+        // No joint leaves [start - rate, start + rate], so a motion across twice its travel bounds both reach and path.
+        let lowest: Vec<f64> = start.iter().zip(rates).map(|(q, rate)| q - rate).collect();
+        let highest: Vec<f64> = start.iter().zip(rates).map(|(q, rate)| q + rate).collect();
+        let travel = |frames, reach_m| 0.5 * travel_bound(&self.chain, &lowest, &highest, frames, reach_m);
+        self.first_contact(travel, curve, workspace)
+    }
+
+    /// The first contact of the motion that `pose` writes for shares from 0 to 1. `travel` bounds the path over the whole
+    /// motion of a body within a radius of the second frame's origin, seen from the first frame.
+    fn first_contact(
+        &self,
+        travel: impl Fn([usize; 2], f64) -> f64,
+        mut pose: impl FnMut(f64, &mut [f64]),
+        workspace: &mut Workspace,
+    ) -> Option<MotionCollision<'_>> {
+        let moving = self.solids.iter().filter(|solid| solid.frame > 0);
+        let longest = moving.map(|solid| travel([0, solid.frame], solid.reach_m())).fold(0.0, f64::max);
+        workspace.travel_m.clear();
+        workspace.travel_m.extend(self.pairs.iter().map(|&pair| {
             let [first, second] = [&self.solids[pair.first], &self.solids[pair.second]];
-            *travel = travel_bound(&self.chain, from, to, [first.frame, second.frame], second.reach_m());
-        }
+            travel([first.frame, second.frame], second.reach_m())
+        }));
         let longest_stride = if longest > 0.0 { self.step_m / longest } else { 1.0 };
         let mut joints = std::mem::take(&mut workspace.joints);
         let mut at = 0.0;
         let found = loop {
-            for (q, (a, b)) in joints.iter_mut().zip(from.iter().zip(to)) {
-                *q = if at == 1.0 { *b } else { a + at * (b - a) };
-            }
+            pose(at, &mut joints);
             self.place(&joints, workspace);
             match self.free_stride(longest_stride, workspace) {
                 Err((distance_m, pair)) => break Some(MotionCollision { at, distance_m, pair }),

@@ -10,7 +10,7 @@ pub enum LinkShape {
         /// Full lengths of the sides.
         size_m: [f64; 3],
     },
-    /// Sphere.
+    /// Ball around the origin.
     Sphere {
         /// Radius.
         radius_m: f64,
@@ -38,7 +38,7 @@ pub enum LinkShape {
 pub struct PlacedShape {
     /// `X_LS`: pose of the shape in its link.
     pub x_ls: Isometry3<f64>,
-    /// The shape.
+    /// Form and size.
     pub shape: LinkShape,
 }
 
