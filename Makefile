@@ -17,7 +17,7 @@ ALL := --locked --workspace
 # Runs a command; all it said is shown if it fails, its last line if it does not.
 quietly = @echo '$(1)'; said=$$($(1) 2>&1) || { printf '%s\n' "$$said" >&2; exit 1; }; tail -n 1 <<<"$$said"
 
-.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-clients check-core check-docs debug-binary fetch test-rust test-web test-e2e test-examples torture bench openapi proto-baseline audit image-lint fmt clean
+.PHONY: help setup setup-test web run test check check-rust check-web check-proto check-clients check-core check-docs debug-binary fetch test-rust test-web test-e2e test-examples check-collisions torture bench openapi proto-baseline audit image-lint fmt clean
 
 help: ## this list
 	@grep -E '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | sort | expand -t 16
@@ -97,6 +97,11 @@ test-e2e: web/dist/index.html debug-binary ## the dashboard in a real browser ag
 
 test-examples: debug-binary ## the client scripts of examples/ over REST and gRPC
 	tests/examples.sh target/debug/cgda $(TOOLS)/python
+
+# Its library takes 480 MB and installed here only. JOBS: number of random jobs.
+check-collisions: setup-test debug-binary ## trajectories of random jobs against another collision library
+	$(TOOLS)/pip install --quiet --disable-pip-version-check pin==4.1.0
+	$(TOOLS)/python tests/collisions.py runs target/debug/cgda $(or $(JOBS),30)
 
 torture: setup-test check-core ## the slow suites: repeated kills, long runs
 	cargo test $(ALL) --release -- --ignored

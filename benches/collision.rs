@@ -1,12 +1,15 @@
 //! Collision checks of a pose and of a motion: two arms, with and without the paper's wall.
 //!
-//! `cargo bench --bench collision`: times per check, and the allocations of each, which are 0.
+//! `cargo bench --bench collision`: times per check and the allocations of each; beside them the time of one evaluation of
+//! wax and of paint.
 
 use cgda::framework::collision::{CollisionModel, CollisionOptions, surface_obstacle};
+use cgda::framework::constraint::Constraints;
 use cgda::framework::method::whole_run::Space;
 use cgda::framework::random::RandomStream;
 use cgda::framework::robot::{Chain, RobotModel, RobotSpec};
-use cgda::framework::world::{CoverageSpec, SurfaceView};
+use cgda::framework::world::{self, CoverageSpec, SurfaceView, World};
+use cgda::reproduce::shipped;
 use divan::{AllocProfiler, Bencher, black_box};
 
 #[global_allocator]
@@ -78,4 +81,42 @@ fn free_motion(bencher: Bencher<'_, '_>, robot: &str) {
     let is_free = |pose: &&Vec<f64>| model.check_motion(&home, pose, &mut model.workspace()).is_none();
     let to = poses.iter().find(is_free).expect("one of the motions is free");
     bencher.bench_local(|| black_box(model.check_motion(&home, to, &mut workspace).is_none()));
+}
+
+/// One evaluation of a shipped problem at a random pose, as the searches make it.
+#[divan::bench(args = ["wax", "paint"])]
+fn evaluation(bencher: Bencher<'_, '_>, preset: &str) {
+    let (_, mut world, poses) = problem(preset);
+    let mut shown = vec![0.0; world.features().len()];
+    let mut next = poses.iter().cycle();
+    bencher.bench_local(|| {
+        world.observe(next.next().map_or(&[][..], |pose| pose), &mut shown);
+        black_box(shown[0])
+    });
+}
+
+/// The check that comes before it, scratch space included.
+#[divan::bench(args = ["wax", "paint"])]
+fn check_of_a_candidate(bencher: Bencher<'_, '_>, preset: &str) {
+    let (constraints, _, poses) = problem(preset);
+    let mut next = poses.iter().cycle();
+    bencher.bench_local(|| black_box(constraints.allows(next.next().map_or(&[][..], |pose| pose))));
+}
+
+fn problem(preset: &str) -> (Constraints, Box<dyn World>, Vec<Vec<f64>>) {
+    let mut problem = shipped::preset(preset).expect("the preset is shipped").problem;
+    problem.execution.avoid_collisions();
+    let model = RobotModel::from_urdf(&problem.urdf).expect("the robot is shipped");
+    let chain = Chain::new(&model, &problem.robot).expect("the chain is shipped");
+    let specs = &problem.execution.constraints;
+    let constraints = Constraints::new(specs, &model, &problem.robot, &chain, &problem.world).expect("home is free");
+    let world = world::build(&problem.world, &chain).expect("the world is shipped");
+    let space = Space::of(&chain);
+    let mut random = RandomStream::of_run(1, 0);
+    let poses = (0..POSES).map(|_| {
+        let mut joints = space.home();
+        space.uniform(&mut random, &mut joints);
+        joints
+    });
+    (constraints, world, poses.collect())
 }

@@ -1,5 +1,6 @@
 //! `cgda run`: executes a problem, from a preset or from demonstrations, for R seeds on all cores.
 
+mod collisions;
 mod dry_run;
 mod figures;
 mod output;
@@ -109,6 +110,9 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     }
     let planning = arguments.planning.spec();
     planning.check(iet.chain())?;
+    if !seeded.named.problem.execution.checks_collisions() {
+        eprintln!("collisions are not checked: the arm may pass through itself and through what it works on");
+    }
     let seeds: Vec<u64> = (0..=last).map(|offset| arguments.seed + offset).collect();
     let runs = search(&seeded, &seeds, &planning, arguments.threads)?;
     if let Some(directory) = &arguments.out {

@@ -139,6 +139,10 @@ pub struct ExecutionRequest {
     /// Choices for the trajectories of the runs; the defaults if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planning: Option<PlanSpec>,
+    /// Whether the constraint `collision_free` is added with its defaults, unless one is given; true if absent. False
+    /// for jobs of versions that did not check collisions.
+    #[serde(default)]
+    pub avoid_collisions: Option<bool>,
 }
 
 /// A run whose trials another run starts from.

@@ -1,5 +1,6 @@
 //! The problem that `cgda run` executes: a preset, or demonstrations with a robot and a world.
 
+use super::collisions::CollisionArguments;
 use super::reality::{RealityArguments, SurfaceArguments};
 use crate::cli::demonstrations::{ReadArguments, read_demonstrations};
 use crate::cli::values::{Metric, Weighting};
@@ -34,6 +35,8 @@ pub(super) struct ProblemArguments {
     /// End a goal after this many evaluations.
     #[arg(long, value_name = "EVALUATIONS")]
     max_evaluations_per_goal: Option<u64>,
+    #[command(flatten)]
+    collisions: CollisionArguments,
     #[command(flatten)]
     reality: RealityArguments,
     #[command(flatten)]
@@ -109,6 +112,7 @@ fn adjusted(mut named: Preset, arguments: &ProblemArguments) -> anyhow::Result<P
     execution.target_discrepancy = arguments.target_discrepancy.or(execution.target_discrepancy);
     execution.max_evaluations_per_goal = arguments.max_evaluations_per_goal.or(execution.max_evaluations_per_goal);
     execution.metric = arguments.metric.map_or(execution.metric, Into::into);
+    arguments.collisions.apply(arguments.preset.is_some(), execution)?;
     arguments.reality.apply(&mut named.problem);
     named.problem.choose();
     Ok(named)

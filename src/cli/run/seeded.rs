@@ -1,11 +1,15 @@
 //! The seed-dependent parts of a problem: the robot's start pose and its earlier trials.
 
+use crate::framework::constraint::Constraints;
 use crate::framework::execution::{Iet, Problem, simulate};
 use crate::framework::method::whole_run::{Space, Trial};
 use crate::framework::preset::Preset;
 use crate::framework::random::RandomStream;
 use crate::framework::robot::{Chain, RobotModel, RobotSpec};
 use anyhow::{Context as _, bail};
+
+/// Maximum number of start poses drawn until one is free of collisions.
+const MAX_DRAWS: u32 = 10_000;
 
 /// A problem to run with many seeds.
 pub(super) struct Seeded {
@@ -67,11 +71,22 @@ fn is_same_robot(one: &Problem, other: &Problem) -> bool {
     one.urdf == other.urdf && one.robot == there && one.world == other.world
 }
 
-/// The robot with a start pose drawn from `seed`, uniformly within its limits.
+/// The robot with a start pose drawn from `seed`, uniformly within its limits; free of collisions, if they are checked.
 fn started_anywhere(problem: &Problem, seed: u64) -> anyhow::Result<RobotSpec> {
-    let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
+    let model = RobotModel::from_urdf(&problem.urdf)?;
+    let chain = Chain::new(&model, &problem.robot)?;
+    let allows = Constraints::new(&problem.execution.constraints, &model, &problem.robot, &chain, &problem.world)?;
+    let space = Space::of(&chain);
+    let mut random = RandomStream::of_run(seed, 0);
     let mut pose = chain.home().to_vec();
-    Space::of(&chain).uniform(&mut RandomStream::of_run(seed, 0), &mut pose);
-    let home = chain.genes().iter().map(|gene| gene.name.clone()).zip(pose).collect();
-    Ok(RobotSpec { home, ..problem.robot.clone() })
+    for _ in 0..MAX_DRAWS {
+        space.uniform(&mut random, &mut pose);
+        if !allows.forbids(&pose) {
+            let home = chain.genes().iter().map(|gene| gene.name.clone()).zip(pose).collect();
+            return Ok(RobotSpec { home, ..problem.robot.clone() });
+        }
+    }
+    bail!(
+        "--random-start: {MAX_DRAWS} start poses in a row are in collision: check the robot's shapes and its obstacles"
+    )
 }

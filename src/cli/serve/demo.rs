@@ -166,6 +166,7 @@ async fn execute(
         max_evaluations_per_s: Some(scene.evaluations_per_s),
         earlier_runs: None,
         planning: None,
+        avoid_collisions: Some(true),
     };
     app.create_job(CreateJob::Execution(Box::new(request)), None).await.map(drop)
 }

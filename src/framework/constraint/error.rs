@@ -74,6 +74,25 @@ pub enum ConstraintError {
     /// The constrained link is not part of the robot.
     #[error("the constrained point cannot be reached: {0}")]
     Point(#[from] crate::robot::ChainError),
+    /// The collision model cannot be built.
+    #[error("collision_free: {0}")]
+    Collision(#[from] crate::collision::CollisionError),
+    /// The robot starts in collision.
+    #[error(
+        "collision_free: at the home pose {:?} and {:?} are {distance_m:.4} m apart, less than the margin of {margin_m} \
+         m: give another home pose, or exclude the pair if the two belong together", pair[0], pair[1]
+    )]
+    HomeCollides {
+        /// Names of the two links, or of a link and an obstacle.
+        pair: [String; 2],
+        /// Their distance, m; 0 if they overlap.
+        distance_m: f64,
+        /// Distance required, m.
+        margin_m: f64,
+    },
+    /// Collisions are described more than once.
+    #[error("collision_free is given more than once: put all obstacles and excluded pairs into one")]
+    SecondCollisionFree,
     /// Appending is impossible, because the strategy gives infeasible candidates no discrepancy.
     #[error(
         "on_infeasible \"append\" needs handling \"penalty\": {strategy} gives an infeasible candidate no discrepancy, so \

@@ -2,6 +2,7 @@
 
 use super::spec::{ChainJoint, PointSpec};
 use crate::robot::{Chain, RobotModel, RobotSpec};
+use crate::world::{ToolPositionSpec, WorldSpec};
 
 pub(super) struct Arm {
     pub model: RobotModel,
@@ -18,6 +19,11 @@ pub(super) fn arm() -> Arm {
     };
     let chain = Chain::new(&model, &robot).unwrap();
     Arm { model, robot, chain }
+}
+
+/// A world without a surface.
+pub(super) fn world() -> WorldSpec {
+    WorldSpec::ToolPosition(ToolPositionSpec { unit: "mm".to_owned() })
 }
 
 /// The chain on which the published runs checked their boxes.

@@ -3,7 +3,8 @@
 //! The judge sees every candidate before it is executed, and every discrepancy before the optimiser does, so one
 //! mechanism serves all optimisers. Guarantees per strategy:
 //! - rejecting, repairing, operators, death penalty: no infeasible candidate is executed;
-//! - other penalties: infeasible candidates are executed and get a strictly larger discrepancy;
+//! - other penalties: infeasible candidates are executed and get a strictly larger discrepancy, except those that a hard
+//!   constraint forbids, which are treated as under the death penalty;
 //! - all: the goal's result is feasible, or the search stops with [`StopReason::Infeasible`].
 //!
 //! All attempts are bounded: if no feasible pose is found for a candidate in `max_attempts`, it is reported to the
@@ -153,6 +154,10 @@ impl Judge {
                 PenaltyKind::Death { value } => {
                     Judgement::Tell(Outcome::Penalised { fitness: beyond_target(&self.space, value) })
                 }
+                _ if self.rules.constraints.forbids(joints) => {
+                    let fitness = beyond_target(&self.space, PenaltyKind::DEATH_VALUE);
+                    Judgement::Tell(Outcome::Penalised { fitness })
+                }
                 _ => Judgement::Worsen(violations),
             },
             HandlingSpec::Repairing { max_attempts } => self.moved(optimizer.origins(id), joints, *max_attempts, true),
@@ -270,7 +275,7 @@ impl Judge {
             return known;
         }
         if self.rules.on_infeasible != OnInfeasible::Stop {
-            return optimizer.best();
+            return optimizer.best().filter(|best| !self.rules.constraints.forbids(best.joints));
         }
         let known = known?;
         let may_win = |best: &Best<'_>| {

@@ -1,13 +1,15 @@
 //! All constraints of a job: how far a candidate is from satisfying each of them.
 //!
 //! A violation is 0 if satisfied, otherwise positive: metres on the wrong side of a region's boundary, radians (or
-//! metres) above a step limit. A candidate is feasible exactly if every violation is 0.
+//! metres) above a step limit, metres of missing clearance. A candidate is feasible exactly if every violation is 0.
 
 use super::error::ConstraintError;
 use super::geometry::{LEAST_VIOLATION, Region, finite, positive};
 use super::point::Point;
 use super::spec::{ConstraintSpec, Side};
+use crate::collision::CollisionModel;
 use crate::robot::{Chain, RobotModel, RobotSpec};
+use crate::world::WorldSpec;
 
 /// A candidate with everything its constraints refer to; joints in gene order, rad or m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,19 +22,21 @@ pub struct Proposal<'a> {
     pub previous: Option<&'a [f64]>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 enum Constraint {
     Region { region: Region, side: Side, point: Box<Point> },
     PopulationVelocity { limit: f64 },
     JointStep { limit: f64, start: Option<Vec<f64>> },
+    CollisionFree(Box<CollisionModel>),
 }
 
-/// The constraints of a job, ready to be measured.
-#[derive(Debug, Clone, PartialEq)]
+/// The constraints of a job, ready to be measured. Collisions are by far the most expensive to measure and are looked
+/// at last.
+#[derive(Debug, Clone)]
 pub struct Constraints(Vec<Constraint>);
 
 impl Constraints {
-    /// Prepares `specs` for a robot: `chain` is the one `robot` picks out of `model`.
+    /// Prepares `specs` for a robot in `world`: `chain` is the one `robot` picks out of `model`.
     ///
     /// # Errors
     /// [`ConstraintError`] with the numbers and what would do.
@@ -41,7 +45,12 @@ impl Constraints {
         model: &RobotModel,
         robot: &RobotSpec,
         chain: &Chain,
+        world: &WorldSpec,
     ) -> Result<Self, ConstraintError> {
+        let is_collision_free = |spec: &&ConstraintSpec| matches!(spec, ConstraintSpec::CollisionFree(_));
+        if specs.iter().filter(is_collision_free).count() > 1 {
+            return Err(ConstraintError::SecondCollisionFree);
+        }
         let prepare = |spec: &ConstraintSpec| match spec {
             ConstraintSpec::Region(spec) => Ok(Constraint::Region {
                 region: Region::new(&spec.geometry)?,
@@ -63,6 +72,9 @@ impl Constraints {
                 }
                 Ok(Constraint::JointStep { limit: spec.limit_rad, start: spec.start.clone() })
             }
+            ConstraintSpec::CollisionFree(spec) => {
+                Ok(Constraint::CollisionFree(Box::new(spec.model(model, chain, world)?)))
+            }
         };
         specs.iter().map(prepare).collect::<Result<_, _>>().map(Self)
     }
@@ -73,12 +85,27 @@ impl Constraints {
         self.0.is_empty()
     }
 
-    /// Whether the regions allow a pose (n joints, rad or m), regardless of the previous pose.
+    /// Whether regions and collisions allow a pose (n joints, rad or m), regardless of the previous pose.
     #[must_use]
     pub fn allows(&self, joints: &[f64]) -> bool {
         let proposal = Proposal { joints, origins: [None; 2], previous: None };
         let regions = self.0.iter().filter(|constraint| matches!(constraint, Constraint::Region { .. }));
-        regions.map(|region| region.violation(&proposal)).all(|violation| violation == 0.0)
+        regions.map(|region| region.violation(&proposal)).all(|violation| violation == 0.0) && !self.forbids(joints)
+    }
+
+    /// Whether a hard constraint forbids a pose (n joints, rad or m): it must not be executed under any handling.
+    #[must_use]
+    pub fn forbids(&self, joints: &[f64]) -> bool {
+        self.collisions().is_some_and(|model| model.collides(joints, &mut model.workspace()))
+    }
+
+    /// The collision model; `None` if collisions are not checked.
+    #[must_use]
+    pub fn collisions(&self) -> Option<&CollisionModel> {
+        self.0.iter().find_map(|constraint| match constraint {
+            Constraint::CollisionFree(model) => Some(model.as_ref()),
+            _ => None,
+        })
     }
 
     /// The smallest limit on the step between goals (rad or m), with the start of the first step if it is given.
@@ -105,7 +132,9 @@ impl Constraints {
     /// Whether every constraint is satisfied.
     #[must_use]
     pub fn is_feasible(&self, proposal: &Proposal<'_>) -> bool {
-        self.violations(proposal).all(|violation| violation == 0.0)
+        let cheap = self.0.iter().filter(|constraint| !matches!(constraint, Constraint::CollisionFree(_)));
+        cheap.map(|constraint| constraint.violation(proposal)).all(|violation| violation == 0.0)
+            && !self.forbids(proposal.joints)
     }
 }
 
@@ -126,6 +155,7 @@ impl Constraint {
                 let step = proposal.joints.iter().zip(from).map(|(c, o)| (c - o).abs()).fold(0.0, f64::max);
                 (step - limit).max(0.0)
             }
+            Self::CollisionFree(model) => model.lack_m(proposal.joints, &mut model.workspace()),
         }
     }
 }
@@ -138,7 +168,7 @@ mod tests {
 
     fn set(specs: &[ConstraintSpec]) -> Constraints {
         let arm = fixtures::arm();
-        Constraints::new(specs, &arm.model, &arm.robot, &arm.chain).unwrap()
+        Constraints::new(specs, &arm.model, &arm.robot, &arm.chain, &fixtures::world()).unwrap()
     }
 
     fn alone(joints: &[f64]) -> Proposal<'_> {
@@ -186,7 +216,9 @@ mod tests {
     #[test]
     fn limits_must_be_numbers_of_this_robot() {
         let arm = fixtures::arm();
-        let refuse = |spec| Constraints::new(&[spec], &arm.model, &arm.robot, &arm.chain).unwrap_err().to_string();
+        let refuse = |spec| {
+            Constraints::new(&[spec], &arm.model, &arm.robot, &arm.chain, &fixtures::world()).unwrap_err().to_string()
+        };
         let message = refuse(ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad: -1.0 }));
         assert!(message.contains("-1"), "{message}");
         let message = refuse(ConstraintSpec::JointStep(JointStepSpec { limit_rad: 1.0, start: Some(vec![0.0; 2]) }));

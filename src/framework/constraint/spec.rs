@@ -1,5 +1,6 @@
 //! Constraints and their handling as written by users (TOML presets, REST).
 
+use super::collision_free::CollisionFreeSpec;
 use crate::tagged;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +16,8 @@ tagged! {
         PopulationVelocity(PopulationVelocitySpec),
         /// Limits the step of each joint from the previous goal's joints; this is what a real robot needs.
         JointStep(JointStepSpec),
+        /// No contact of the robot with itself, with obstacles or with the worked surface; such a pose is never executed.
+        CollisionFree(CollisionFreeSpec),
     }
 }
 

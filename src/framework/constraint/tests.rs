@@ -103,7 +103,8 @@ fn executed(problem: &Problem, seed: u64, most: usize) -> Vec<Step> {
 
 fn constraints_of(problem: &Problem) -> (Constraints, Chain) {
     let arm = fixtures::arm();
-    let constraints = Constraints::new(&problem.execution.constraints, &arm.model, &arm.robot, &arm.chain).unwrap();
+    let constraints =
+        Constraints::new(&problem.execution.constraints, &arm.model, &arm.robot, &arm.chain, &problem.world).unwrap();
     (constraints, arm.chain)
 }
 

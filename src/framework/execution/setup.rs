@@ -53,7 +53,7 @@ impl Setup {
         check_goals(&problem.goals)?;
         let model = RobotModel::from_urdf(&problem.urdf)?;
         let chain = Chain::new(&model, &problem.robot)?;
-        let constraints = Constraints::new(&spec.constraints, &model, &problem.robot, &chain)?;
+        let constraints = Constraints::new(&spec.constraints, &model, &problem.robot, &chain, &problem.world)?;
         let needs = |expected| Err(ProblemError::Method { method: name, expected });
         match method {
             MethodKind::PerGoal(_) if !problem.world.properties().resets() => {

@@ -1,7 +1,7 @@
 //! A problem: everything that an execution needs, self-contained and serialisable, so that a job can be rerun from it
 //! alone.
 
-use crate::constraint::{ConstraintSpec, HandlingSpec, OnInfeasible};
+use crate::constraint::{CollisionFreeSpec, ConstraintSpec, HandlingSpec, OnInfeasible};
 use crate::generalization::Goals;
 use crate::method::whole_run::Trial;
 use crate::method::{Chosen, MethodSpec, choose, method_or_name};
@@ -109,6 +109,19 @@ impl ExecutionSpec {
             handling: HandlingSpec::default(),
             on_infeasible: OnInfeasible::default(),
         }
+    }
+
+    /// Appends a `collision_free` constraint with its defaults, unless one is given.
+    pub fn avoid_collisions(&mut self) {
+        if !self.checks_collisions() {
+            self.constraints.push(ConstraintSpec::CollisionFree(CollisionFreeSpec::default()));
+        }
+    }
+
+    /// Whether a constraint keeps the robot's poses free of collisions.
+    #[must_use]
+    pub fn checks_collisions(&self) -> bool {
+        self.constraints.iter().any(|constraint| matches!(constraint, ConstraintSpec::CollisionFree(_)))
     }
 
     /// The method that `auto` stands for in `world`, and the reason; `None` if the method is given by its own name.

@@ -2,6 +2,7 @@
 //! stands here.
 
 use crate::app::model::{AppError, JobKind, ParameterType};
+use crate::framework::collision::HomeContacts;
 use crate::framework::constraint::{OnInfeasible, PenaltyForm, Side};
 use crate::framework::demonstration::{ClockPolicy, Format, Severity};
 use crate::framework::experiment::Quantity;
@@ -106,6 +107,7 @@ enumerations! {
     Leader = Leader, "a leader" { BestMemory, CurrentBest }
     Prior = Prior, "a prior" { None, Simulator }
     Side = Side, "a side" { Inside, Outside }
+    HomeContacts = HomeContacts, "a treatment of contacts at home" { Exclude, Check }
     PenaltyForm = PenaltyForm, "a form of penalty" { Additive, Multiplicative }
     Scope = MethodScope, "a scope" { PerGoal, WholeRun, Chosen }
     Effects = MethodEffects, "a kind of effects" { Any, Smooth, Accumulating }

@@ -52,6 +52,7 @@ fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
         max_evaluations_per_s,
         earlier_runs,
         planning,
+        avoid_collisions,
     } = work;
     Ok(ExecutionRequest {
         name: name.and_then(text),
@@ -64,6 +65,7 @@ fn execution(work: proto::Execution) -> Result<ExecutionRequest, AppError> {
         max_evaluations_per_s: finite_or_none("/max_evaluations_per_s", max_evaluations_per_s)?,
         earlier_runs: earlier_runs.map(earlier).transpose()?,
         planning: planning.map(planning::spec).transpose()?,
+        avoid_collisions,
     })
 }
 
@@ -175,6 +177,7 @@ impl From<ExecutionRequest> for proto::Execution {
             max_evaluations_per_s,
             earlier_runs,
             planning,
+            avoid_collisions,
         } = work;
         Self {
             name,
@@ -187,6 +190,7 @@ impl From<ExecutionRequest> for proto::Execution {
             max_evaluations_per_s,
             earlier_runs: earlier_runs.map(|runs| proto::EarlierRuns { runs: super::all(runs) }),
             planning: planning.map(Into::into),
+            avoid_collisions,
         }
     }
 }

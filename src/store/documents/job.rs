@@ -4,7 +4,7 @@
 //! world, robot, cells of an experiment. Those are some sixty types that a copy would only repeat, so they are stored as
 //! the core writes them, and saved documents in `tests/fixtures/documents/` pin that form.
 
-use super::{document, unchanged, versions};
+use super::{complete, document, unchanged, versions};
 use crate::app::model::{
     self, ActionId, CreateJob, DemonstrationId, EarlierRun, ExecutionRequest, ExecutionWork, ExperimentId,
     ExperimentRequest, GeneralizationRequest, JobFailure, PaperTable, RobotId, WorldId,
@@ -15,6 +15,7 @@ use crate::framework::generalization::Weighting;
 use crate::framework::recognition::Metric;
 use crate::framework::trajectory::PlanSpec;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// The request with its defaults filled in.
 #[derive(Debug, Serialize, Deserialize)]
@@ -24,7 +25,15 @@ pub(in crate::store) enum Request {
     Execution(Box<RequestedExecution>),
     Experiment(RequestedExperiment),
 }
-versions! { Request keeps CreateJob, "request", [unchanged] }
+versions! { Request keeps CreateJob, "request", [unchanged, with_collisions] }
+
+/// Version 1 of the builds that did not check collisions.
+fn with_collisions(mut request: Value) -> Value {
+    if request["kind"] == "execution" {
+        complete(&mut request, "avoid_collisions", false);
+    }
+    request
+}
 
 /// Work for a worker.
 #[derive(Debug, Serialize, Deserialize)]
@@ -62,6 +71,7 @@ document! {
         earlier_runs: Option<Vec<EarlierRun>>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         planning: Option<PlanSpec>,
+        avoid_collisions: Option<bool>,
     }
 }
 

@@ -32,6 +32,9 @@ pub(super) async fn resolve(app: &UseCases, mut request: ExecutionRequest) -> Re
     else {
         return Err(AppError::invalid(errors));
     };
+    if *request.avoid_collisions.get_or_insert(true) {
+        request.execution.avoid_collisions();
+    }
     let goals = Goals::new(goals.features, &goals.goals).map_err(AppError::internal)?;
     let interval_s = action.mean_duration_s / goals.len() as f64;
     let mut problem = Problem {

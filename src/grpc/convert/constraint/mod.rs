@@ -1,5 +1,6 @@
 //! Constraints: conditions on every candidate.
 
+mod collision;
 mod handling;
 
 pub use handling::handling;
@@ -19,6 +20,7 @@ use proto::robot_point::At;
 pub fn constraint(at: &str, message: proto::ConstraintSpec) -> Result<ConstraintSpec, AppError> {
     let proto::ConstraintSpec { kind } = message;
     match required(&format!("{at}/kind"), kind)? {
+        Kind::CollisionFree(message) => collision::collision_free(at, message).map(ConstraintSpec::CollisionFree),
         Kind::Region(message) => region(at, message).map(ConstraintSpec::Region),
         Kind::PopulationVelocity(proto::PopulationVelocityConstraint { limit_rad }) => {
             let limit_rad = finite(&format!("{at}/limit_rad"), limit_rad)?;
@@ -109,6 +111,7 @@ impl From<ConstraintSpec> for proto::ConstraintSpec {
     fn from(spec: ConstraintSpec) -> Self {
         let kind = match spec {
             ConstraintSpec::Region(spec) => Kind::Region(spec.into()),
+            ConstraintSpec::CollisionFree(spec) => Kind::CollisionFree(spec.into()),
             ConstraintSpec::PopulationVelocity(PopulationVelocitySpec { limit_rad }) => {
                 Kind::PopulationVelocity(proto::PopulationVelocityConstraint { limit_rad })
             }
@@ -202,6 +205,14 @@ mod tests {
         survives(&json!({"kind": "population_velocity", "limit_rad": 0.3}));
         survives(&json!({"kind": "joint_step", "limit_rad": 0.3, "start": [0.1, 0.2]}));
         survives(&json!({"kind": "joint_step", "limit_rad": 0.3}));
+        survives(&json!({"kind": "collision_free"}));
+        survives(&json!({"kind": "collision_free", "excluded": [["torso", "forearm"]], "margin_m": 0.01,
+            "capsule_radius_m": 0.05, "tool_radius_m": 0.02, "surface": false, "surface_thickness_m": 0.3,
+            "home_contacts": "check", "obstacles": [
+                {"name": "a", "shape": {"kind": "box", "size_m": high, "center_m": low, "rpy_rad": [0.1, 0.2, 0.3]}},
+                {"name": "b", "shape": {"kind": "sphere", "center_m": low, "radius_m": 0.4}},
+                {"name": "c", "shape": {"kind": "hull", "points_m": [low, high, [0.0, 0.0, 9.0], [1.0, 0.0, 0.0]]}},
+                {"name": "d", "shape": {"kind": "half_space", "point_m": low, "normal": high}}]}));
     }
 
     #[test]
