@@ -43,7 +43,7 @@ pub const RENAMED_PARAMETERS: &[(&str, &str)] = &[
 pub const LISTS: &[&str] = &["Row", "EarlierRuns"];
 
 /// Messages that stand for an array of fixed length of REST: their fields, by number, are its items.
-pub const TUPLES: &[&str] = &["Interval", "JointLimits", "PathStep"];
+pub const TUPLES: &[&str] = &["Interval", "JointLimits", "NamePair", "PathStep"];
 
 /// Messages whose fields REST has one level higher.
 pub const FLATTENED: &[&str] = &["RecognizeRequest.question"];
