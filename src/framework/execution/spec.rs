@@ -121,7 +121,16 @@ impl ExecutionSpec {
     /// Whether a constraint keeps the robot's poses free of collisions.
     #[must_use]
     pub fn checks_collisions(&self) -> bool {
-        self.constraints.iter().any(|constraint| matches!(constraint, ConstraintSpec::CollisionFree(_)))
+        self.collision_free().is_some()
+    }
+
+    /// The constraint that keeps the robot free of collisions; `None` if there is none.
+    #[must_use]
+    pub fn collision_free(&self) -> Option<&CollisionFreeSpec> {
+        self.constraints.iter().find_map(|constraint| match constraint {
+            ConstraintSpec::CollisionFree(spec) => Some(spec),
+            _ => None,
+        })
     }
 
     /// The method that `auto` stands for in `world`, and the reason; `None` if the method is given by its own name.

@@ -2,8 +2,10 @@
 
 use super::equivalent::nearest;
 use super::step::{JointStep, largest_step};
+use super::way;
 use crate::CellSet;
-use crate::execution::{Moves, PathPose, Problem, ProblemError, Replay, Replayed, RunResult, SAMPLES_PER_MOVE, replay};
+use crate::collision::CollisionModel;
+use crate::execution::{Moves, Problem, ProblemError, Replay, Replayed, RunResult, SAMPLES_PER_MOVE, replay};
 use crate::robot::{Chain, RobotModel};
 use crate::trajectory::{CheckedTrajectory, PlanSpec, TrajectoryError, Waypoint, plan};
 
@@ -30,35 +32,93 @@ pub enum MotionError {
     /// The poses cannot be joined within the limits.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
+    /// No way without a contact was found from one pose to the next.
+    #[error(
+        "no way without a collision was found from {from} to pose {to}{}: on the straight one {:?} meets {:?}; move what \
+         is in the way, or run again with another seed",
+        serving(*.goal), .pair[0], .pair[1]
+    )]
+    NoRoute {
+        /// The pose it starts at, from 0, or home.
+        from: String,
+        /// The pose it leads to, from 0.
+        to: usize,
+        /// First goal which that pose serves; `None` if it serves none.
+        goal: Option<usize>,
+        /// Names of the two bodies that meet on the straight way.
+        pair: [String; 2],
+    },
     /// The motion does not have the effect that the run claims.
     #[error("the replay differs: {0}")]
     Replay(String),
 }
 
-/// Joins the path of `result` into a motion, checks it and replays it in the world of `problem`.
+fn serving(goal: Option<usize>) -> String {
+    goal.map_or_else(String::new, |goal| format!(" (goal {goal})"))
+}
+
+/// Joins the path of `result` into a motion, checks it and replays it in the world of `problem`. If the problem's
+/// constraints ask for it, the motion leads around whatever the straight one would touch.
 ///
 /// # Errors
 /// [`ProblemError`] if the result does not belong to the problem.
 pub fn deliver(problem: &Problem, result: &RunResult, planning: &PlanSpec) -> Result<Motion, ProblemError> {
-    let chain = Chain::new(&RobotModel::from_urdf(&problem.urdf)?, &problem.robot)?;
+    let model = RobotModel::from_urdf(&problem.urdf)?;
+    let chain = Chain::new(&model, &problem.robot)?;
+    let collisions = match problem.execution.collision_free() {
+        Some(spec) => Some(spec.model(&model, &chain, &problem.world)?),
+        None => None,
+    };
     let found: Vec<Vec<f64>> = result.path.iter().map(|pose| pose.joints.clone()).collect();
     let poses = nearest(&chain, chain.home(), &found);
-    let way: Vec<Waypoint> = result.path.iter().zip(&poses).map(waypoint).collect();
-    let interval_s = problem.goals.interval_s();
-    let mut trajectory = plan(&chain, chain.home(), &way, interval_s, planning).map_err(MotionError::from);
-    let pose_times_s = trajectory.as_ref().map_or_else(|_| Vec::new(), |trajectory| pose_times_s(trajectory, &way));
+    let planner = Planner { chain: &chain, collisions: collisions.as_ref(), interval_s: problem.goals.interval_s() };
+    let (mut trajectory, pose_times_s) = match planner.plan(result, &poses, planning) {
+        Ok((trajectory, times_s)) => (Ok(trajectory), times_s),
+        Err(error) => (Err(error), Vec::new()),
+    };
     let between = trajectory.as_ref().map_or_else(|_| Vec::new(), |planned| between(planned, &pose_times_s));
     let Replayed { replay, cells } = replay(problem, result, Moves { poses: &poses, between: &between })?;
     if let (false, Some(difference)) = (replay.agrees, &replay.largest_difference) {
         trajectory = Err(MotionError::Replay(difference.to_string()));
     }
     let largest_step = largest_step(&chain, &result.path, &poses);
-    Ok(Motion { pose_times_s, poses, largest_step, trajectory, replay, cells })
+    Ok(Motion { poses, trajectory, pose_times_s, largest_step, replay, cells })
 }
 
-/// The arm rests at each pose of the path.
-fn waypoint((found, joints): (&PathPose, &Vec<f64>)) -> Waypoint {
-    Waypoint { joints: joints.clone(), goal: found.goals.last().copied(), rest: true }
+struct Planner<'a> {
+    chain: &'a Chain,
+    collisions: Option<&'a CollisionModel>,
+    interval_s: Option<f64>,
+}
+
+impl Planner<'_> {
+    /// The trajectory from home through `poses`, and the times at which they are reached.
+    fn plan(
+        &self,
+        result: &RunResult,
+        poses: &[Vec<f64>],
+        planning: &PlanSpec,
+    ) -> Result<(CheckedTrajectory, Vec<f64>), MotionError> {
+        let home = self.chain.home();
+        let (way, mut notes) = match self.collisions {
+            Some(model) => {
+                let way = way::around(model, home, &result.path, poses, result.seed)?;
+                let note = format!("free of collisions; {} of {} moves are detours", way.detours, poses.len());
+                (way, vec![note])
+            }
+            None => (way::straight(&result.path, poses), vec!["collisions are not checked".to_owned()]),
+        };
+        let plan = |spec: &PlanSpec| plan(self.chain, home, &way.waypoints, self.interval_s, spec);
+        let mut trajectory = plan(planning)?;
+        if let Some(contact) =
+            self.collisions.filter(|_| planning.blend).and_then(|model| way::contact(model, &trajectory))
+        {
+            notes.push(format!("the arm stops at the goals: passing them, {contact}"));
+            trajectory = plan(&PlanSpec { blend: false, ..planning.clone() })?;
+        }
+        let pose_times_s = pose_times_s(&trajectory, &way.waypoints);
+        Ok((trajectory.noting(notes), pose_times_s))
+    }
 }
 
 fn pose_times_s(trajectory: &CheckedTrajectory, way: &[Waypoint]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Motions: the path of a finished run as a robot executes it, checked and replayed.
 //!
-//! path -> equivalent poses with the least motion ([`equivalent`]) -> time-parameterised trajectory
-//! ([`trajectory`](crate::trajectory)) -> replay of the effect at the poses and along the motion
+//! path -> equivalent poses with the least motion ([`nearest`]) -> detours around collisions
+//! ([`collision`](crate::collision)) -> time-parameterised trajectory ([`trajectory`](crate::trajectory)) -> replay of the effect at the poses and along the motion
 //! ([`execution::replay`](crate::execution::replay())).
 //!
 //! # Architecture Invariants
@@ -11,6 +11,7 @@
 mod deliver;
 mod equivalent;
 mod step;
+mod way;
 
 pub use deliver::{Motion, MotionError, deliver};
 pub use equivalent::nearest;

@@ -96,6 +96,13 @@ impl CheckedTrajectory {
         &self.tightest
     }
 
+    /// The same trajectory with further notes.
+    #[must_use]
+    pub(crate) fn noting(mut self, notes: Vec<String>) -> Self {
+        self.notes.extend(notes);
+        self
+    }
+
     /// Assumptions made in planning.
     #[must_use]
     pub fn notes(&self) -> &[String] {
