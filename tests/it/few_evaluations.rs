@@ -42,6 +42,8 @@ async fn a_model_job_by_its_name_gives_the_same_over_http_and_grpc() {
     for goal in &goals {
         let residual = goal["residual"].as_f64().unwrap();
         assert_eq!(goal["stop_reason"] == "out_of_reach", residual > 27.4, "{goal}");
+        let verdict = if residual > 27.4 { "out_of_reach" } else { "reached" };
+        assert_eq!(goal["judgement"], json!({"verdict": verdict, "distance": residual, "tolerance": 27.4}), "{goal}");
     }
     assert!(goals.iter().any(|goal| goal["stop_reason"] == "out_of_reach"), "the arm cannot reach every goal");
 

@@ -12,7 +12,7 @@ const pagesOf = (data) => [
   { path: "/jobs/new", text: "Before you start" },
   { path: `/jobs/${data.loopJob.id}`, text: "Succeeded" },
   { path: `/jobs/${data.fewJob.id}`, text: "was made for goal" },
-  { path: `/runs/${data.loopJob.result.runs[0]}`, text: "goals reached" },
+  { path: `/runs/${data.loopJob.result.runs[0]}`, text: "goals passed" },
   { path: `/runs/${data.paintJob.result.runs[0]}`, text: "cells painted" },
   { path: "/demonstrations", text: "loop-1" },
   { path: `/demonstrations/${data.demonstration}`, text: "Findings" },
@@ -82,12 +82,12 @@ async function replay({ browser, server, data }) {
   const time = page.getByRole("slider", { name: "Time in the trajectory" });
   await time.focus();
   await page.keyboard.press("End");
-  await page.getByText(`${goals} of ${goals} goals reached`).waitFor();
+  await page.getByText(`${goals} of ${goals} goals passed`).waitFor();
   await page.keyboard.press("Home");
-  await page.getByText(`0 of ${goals} goals reached`).waitFor();
+  await page.getByText(`0 of ${goals} goals passed`).waitFor();
   await page.getByRole("combobox", { name: "Speed" }).selectOption("4");
   await page.getByRole("button", { name: "Play" }).press("Enter");
-  await page.getByText(`${goals} of ${goals} goals reached`).waitFor();
+  await page.getByText(`${goals} of ${goals} goals passed`).waitFor();
   await page.getByRole("button", { name: "Play" }).waitFor();
 
   assert.ok((await server.api("GET", `/runs/${data.loopJob.result.runs[0]}`)).trajectory, "the run has a trajectory");

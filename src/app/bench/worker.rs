@@ -105,6 +105,7 @@ impl Bench {
             evaluations: 10,
             discrepancy: 5.0,
             stop_reason: StopReason::Stagnation,
+            judgement: None,
             joints: pose.clone(),
             observation: goal.to_vec(),
             goal: goal.to_vec(),

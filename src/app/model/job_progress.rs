@@ -1,6 +1,7 @@
 //! Progress of a job: counts, finished goals, trials.
 
 use super::run::RunGoal;
+use crate::framework::execution::Judgement;
 use crate::framework::method::per_goal::StopReason;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -60,11 +61,14 @@ pub struct GoalProgress {
     pub discrepancy: f64,
     /// Reason why the goal ended.
     pub stop_reason: StopReason,
+    /// Verdict on the goal; absent in events of earlier versions.
+    #[schema(required = true)]
+    pub judgement: Option<Judgement>,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// Observation at these joints.
     pub observation: Vec<f64>,
-    /// Distance of the observation from the goal (Euclidean, features' unit): for a goal out of reach the best found.
+    /// Distance of the observation from the goal (Euclidean, features' unit): for a goal missed the best found.
     #[schema(required = true)]
     pub residual: Option<f64>,
 }
@@ -79,6 +83,7 @@ impl GoalProgress {
             evaluations: goal.evaluations,
             discrepancy: goal.discrepancy,
             stop_reason: goal.stop_reason,
+            judgement: goal.judgement,
             joints: goal.joints.clone(),
             observation: goal.observation.clone(),
             residual: goal.residual,

@@ -4,7 +4,7 @@ use super::id::{ActionId, JobId, RobotId, RunId, TrajectoryId, WorldId};
 use super::time::Timestamp;
 use crate::framework::CellSet;
 use crate::framework::Feature;
-use crate::framework::execution::Replay;
+use crate::framework::execution::{DiscrepancyEstimate, Judgement, Replay, RunVerdict};
 use crate::framework::method::per_goal::{Provenance, StopReason, Tally};
 use crate::framework::method::whole_run::Trial;
 use crate::framework::motion::JointStep;
@@ -40,6 +40,13 @@ pub struct RunView {
     /// Discrepancy of the last goal's winner when executed; absent unless `discrepancy` is an estimate.
     #[schema(required = true)]
     pub true_discrepancy: Option<f64>,
+    /// Estimate of the discrepancy of the winners' undisturbed effects, with its interval of 95 %; absent unless the method
+    /// models the features (`model`) and was told their `noise`: other methods have nothing to tell noise from effect by.
+    #[schema(required = true)]
+    pub estimate: Option<DiscrepancyEstimate>,
+    /// Verdict on the run; absent for runs of earlier versions.
+    #[schema(required = true)]
+    pub verdict: Option<RunVerdict>,
     /// Whether the last goal's joints satisfy the constraints; true if there are none.
     pub valid: bool,
     /// Number of fitness values of all goals by origin.
@@ -70,7 +77,7 @@ pub struct RunView {
 }
 
 #[cfg(test)]
-use crate::framework::execution::AlongMotion;
+use crate::framework::execution::{AlongMotion, RunOutcome};
 
 #[cfg(test)]
 impl RunView {
@@ -90,6 +97,13 @@ impl RunView {
             evaluations: 10,
             discrepancy: 0.1 + 0.2,
             true_discrepancy: None,
+            estimate: Some(DiscrepancyEstimate { value: 0.3, lower: 0.2, upper: 0.5 }),
+            verdict: Some(RunVerdict {
+                outcome: RunOutcome::GoalsMissed,
+                reached: 6,
+                stopped_short: 2,
+                out_of_reach: 1,
+            }),
             valid: true,
             provenance: Tally { simulated: 9, inherited: 2, ..Tally::default() },
             painted_percent: None,
@@ -121,14 +135,17 @@ pub struct RunGoal {
     pub discrepancy: f64,
     /// Reason why the goal ended.
     pub stop_reason: StopReason,
+    /// Verdict on the goal; absent for runs of earlier versions.
+    #[schema(required = true)]
+    pub judgement: Option<Judgement>,
     /// Free joints, rad or m.
     pub joints: Vec<f64>,
     /// Observation at these joints.
     pub observation: Vec<f64>,
     /// Requested features.
     pub goal: Vec<f64>,
-    /// Distance of `observation` from `goal` (Euclidean, features' unit), the smallest one found if the goal is out of
-    /// reach.
+    /// Distance of `observation` from `goal` (Euclidean, features' unit), the smallest one found if the goal is
+    /// missed.
     #[schema(required = true)]
     pub residual: Option<f64>,
     /// Origin of the winner's discrepancy.

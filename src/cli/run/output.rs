@@ -3,7 +3,7 @@
 use super::Delivered;
 use super::figures::Figures;
 use super::seeded::Seeded;
-use crate::framework::execution::{Chosen, Replay};
+use crate::framework::execution::{Chosen, DiscrepancyEstimate, Replay, RunOutcome, RunVerdict, Verdict};
 use crate::framework::motion::Motion;
 use crate::framework::preset::Preset;
 use crate::framework::trajectory::export::{ExportSpec, Exported};
@@ -37,6 +37,9 @@ struct Run<'a> {
     discrepancy: f64,
     /// Painted share that the trajectory leaves, %.
     painted_percent: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    estimate: Option<DiscrepancyEstimate>,
+    verdict: RunVerdict,
     /// Cells that the trajectory paints, row * columns + column.
     #[serde(skip_serializing_if = "Option::is_none")]
     painted_cells: Option<Vec<usize>>,
@@ -56,6 +59,9 @@ struct Goal {
     evaluations: u64,
     discrepancy: f64,
     stop_reason: crate::framework::method::per_goal::StopReason,
+    verdict: Verdict,
+    distance: Option<f64>,
+    tolerance: f64,
 }
 
 /// The result of all runs as one JSON object.
@@ -74,6 +80,8 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[Delivered], figures: Figu
                 seed: run.seed,
                 evaluations: run.evaluations,
                 discrepancy: run.discrepancy,
+                estimate: run.estimate,
+                verdict: motion.verdict,
                 painted_percent: motion.replay.painted_percent,
                 painted_cells: motion.cells.as_ref().map(|cells| cells.iter().collect()),
                 replay: &motion.replay,
@@ -87,6 +95,9 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[Delivered], figures: Figu
                         evaluations: g.evaluations,
                         discrepancy: g.discrepancy,
                         stop_reason: g.stop_reason,
+                        verdict: g.judgement.verdict,
+                        distance: g.judgement.distance,
+                        tolerance: g.judgement.tolerance,
                     })
                     .collect(),
                 digest: &run.digest,
@@ -114,24 +125,30 @@ pub(super) fn table(named: &Preset, runs: &[Delivered], figures: &Figures) -> St
     }
     let _ = writeln!(
         text,
-        "{:>5}  {:>11}  {:>14}  {:<15}  joints (rad or m)",
+        "{:>5}  {:>11}  {:>14}  {:<15}  {:<13}  joints (rad or m)",
         "goal",
         "evaluations",
         format!("discrepancy {unit}"),
-        "ended by"
+        "ended by",
+        "verdict"
     );
     for goal in &best.goals {
         let joints: Vec<String> = goal.joints.iter().map(|q| format!("{q:>8.4}")).collect();
-        let reason = serde_json::to_value(goal.stop_reason).ok();
         let _ = writeln!(
             text,
-            "{:>5}  {:>11}  {:>14.4}  {:<15}  {}",
+            "{:>5}  {:>11}  {:>14.4}  {:<15}  {:<13}  {}",
             goal.index + 1,
             goal.evaluations,
             goal.discrepancy,
-            reason.as_ref().and_then(|r| r.as_str()).unwrap_or_default(),
+            word(goal.stop_reason),
+            word(goal.judgement.verdict),
             joints.join(" ")
         );
+    }
+    let tolerance = best.goals.first().map_or(0.0, |goal| goal.judgement.tolerance);
+    let _ = writeln!(text, "{} (tolerance {tolerance:.3} {unit})", outcome(motion.verdict));
+    if let Some(DiscrepancyEstimate { value, lower, upper }) = best.estimate {
+        let _ = writeln!(text, "true discrepancy, estimated: {value:.3} {unit}, 95 % within {lower:.3} to {upper:.3}");
     }
     text.push_str(&effect(motion, unit));
     for (name, statistic) in [("mean", &figures.mean), ("median", &figures.median), ("p90", &figures.p90)] {
@@ -154,6 +171,26 @@ pub(super) fn table(named: &Preset, runs: &[Delivered], figures: &Figures) -> St
         let _ = writeln!(text, "discrepancy at most {} {unit}: {percent:.0} % of the runs", reached.discrepancy);
     }
     text
+}
+
+/// The name of a value as JSON has it.
+fn word(value: impl Serialize) -> String {
+    let json = serde_json::to_value(value).ok();
+    json.as_ref().and_then(|json| json.as_str()).unwrap_or_default().to_owned()
+}
+
+/// The verdict on a run, in words.
+fn outcome(verdict: RunVerdict) -> String {
+    let goals = |count: u32| if count == 1 { "1 goal".to_owned() } else { format!("{count} goals") };
+    match verdict.outcome {
+        RunOutcome::Complete => "complete".to_owned(),
+        RunOutcome::GoalsMissed => {
+            let RunVerdict { stopped_short, out_of_reach, .. } = verdict;
+            let missed = goals(verdict.missed());
+            format!("complete with {missed} missed: {stopped_short} stopped short, {out_of_reach} out of reach")
+        }
+        RunOutcome::Invalid => "invalid: some joints violate the constraints, or the replay differs".to_owned(),
+    }
 }
 
 /// A line with the effect of the trajectory by its replay, or with the reason why there is none.

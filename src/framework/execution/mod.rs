@@ -26,8 +26,10 @@ mod spec;
 mod state;
 #[cfg(test)]
 mod tests;
+mod true_discrepancy;
 #[cfg(test)]
 mod unknown_tests;
+mod verdict;
 mod whole_run_driver;
 
 pub use crate::method::Chosen;
@@ -42,3 +44,5 @@ pub use result::{GoalResult, Progress, RunResult, TracePoint};
 pub use simulate::{run, run_while, simulate, simulated_world};
 pub use spec::{ExecutionSpec, Problem};
 pub use state::IetState;
+pub use true_discrepancy::DiscrepancyEstimate;
+pub use verdict::{Judgement, RunOutcome, RunVerdict, Verdict};

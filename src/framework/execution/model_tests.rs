@@ -5,8 +5,9 @@ use crate::Feature;
 use crate::generalization::Goals;
 use crate::method::MethodSpec;
 use crate::method::per_goal::StopReason;
-use crate::method::whole_run::{ModelSpec, Prior, Trial};
+use crate::method::whole_run::{ModelSpec, Prior, Space, Trial};
 use crate::preset::shipped;
+use crate::random::RandomStream;
 use crate::robot::RobotSpec;
 use crate::world::DisturbanceSpec;
 use rstest::rstest;
@@ -131,4 +132,103 @@ fn an_arm_with_a_prismatic_joint_reaches_its_goals() {
     let result = run(&problem, 1).unwrap();
     assert!(result.goals.iter().all(|goal| goal.stop_reason == StopReason::Tolerance), "{result:?}");
     assert!(result.evaluations <= 20, "{} evaluations", result.evaluations);
+}
+
+/// Wax, of which goals 4 and 5 are out of reach, with `restarts`.
+fn beyond(restarts: u32) -> RunResult {
+    let mut problem = shipped("wax").unwrap().problem;
+    problem.execution.method = MethodSpec::Model(ModelSpec { restarts: Some(restarts), ..ModelSpec::default() });
+    run(&problem, 9).unwrap()
+}
+
+#[test]
+fn a_goal_is_out_of_reach_only_once_a_restart_has_agreed() {
+    let (without, with) = (beyond(0), beyond(1));
+    let missed = |result: &RunResult, verdict: Verdict| -> Vec<usize> {
+        let goals = result.goals.iter().filter(|goal| goal.judgement.verdict == verdict);
+        goals.map(|goal| goal.index).collect()
+    };
+    assert_eq!(missed(&without, Verdict::StoppedShort), [4, 5]);
+    assert!(without.goals[4..6].iter().all(|goal| goal.stop_reason == StopReason::NoImprovement));
+    assert_eq!(missed(&with, Verdict::OutOfReach), [4, 5]);
+    assert_eq!(with.evaluations, without.evaluations + 2);
+    assert_eq!(with.verdict().outcome, RunOutcome::GoalsMissed);
+    for goal in &with.goals {
+        let Judgement { distance, tolerance, .. } = goal.judgement;
+        assert_eq!(goal.judgement.verdict == Verdict::Reached, distance.unwrap() <= tolerance);
+    }
+}
+
+/// A circle of nine goals for a robot of six joints that turn by 360 degrees either way, from a pose drawn by `seed`.
+fn six_joints(seed: u64) -> Problem {
+    let millimetres = ["x", "y", "z"].map(|name| Feature::new(name, "mm")).to_vec();
+    let on_circle = |k: u32| {
+        let turn = f64::from(k) * std::f64::consts::TAU / 9.0;
+        vec![450.0 + 150.0 * turn.cos(), 150.0 + 150.0 * turn.sin(), 300.0]
+    };
+    let goals: Vec<Vec<f64>> = (0..9).map(on_circle).collect();
+    let mut problem = Problem {
+        goals: Goals::new(millimetres, &goals).unwrap(),
+        urdf: include_str!("../../../tests/fixtures/robots/ur5_like.urdf").to_owned(),
+        robot: RobotSpec::default(),
+        execution: ExecutionSpec { tolerance: Some(5.0), ..wax(1).execution },
+        ..wax(1)
+    };
+    let chain = Iet::new(&problem, seed).unwrap().chain().clone();
+    let mut pose = chain.home().to_vec();
+    Space::of(&chain).uniform(&mut RandomStream::of_run(seed, 0), &mut pose);
+    problem.robot.home = chain.genes().iter().map(|gene| gene.name.clone()).zip(pose).collect();
+    problem
+}
+
+#[test]
+fn no_joint_turns_round_between_neighbouring_goals() {
+    // From these poses a joint turned by 541 to 717 degrees before equivalent poses were told apart.
+    for seed in [24, 35, 42] {
+        let result = run(&six_joints(seed), seed).unwrap();
+        assert_eq!(result.verdict().outcome, RunOutcome::Complete, "seed {seed}: {result:?}");
+        let poses = result.waypoints();
+        let steps = poses.windows(2).flat_map(|pair| pair[0].iter().zip(&pair[1]).map(|(from, to)| (to - from).abs()));
+        let largest = steps.fold(0.0, f64::max).to_degrees();
+        assert!(largest < 90.0, "seed {seed}: {largest} degrees");
+    }
+}
+
+/// Wax-reachable with 2 mm of noise of the sensor, of which the method knows `noise`.
+fn noisy(noise: f64) -> Problem {
+    let mut problem = wax(9);
+    problem.execution.reality = Some(DisturbanceSpec { sensor_noise: 2.0, ..DisturbanceSpec::default() });
+    problem.execution.method = MethodSpec::Model(ModelSpec { noise, ..ModelSpec::default() });
+    problem.execution.tolerance = Some(10.0);
+    problem
+}
+
+/// Discrepancy of the undisturbed effects of the winners.
+fn undisturbed(problem: &Problem, result: &RunResult) -> f64 {
+    let chain = Iet::new(problem, 1).unwrap().chain().clone();
+    let mut world = crate::world::build(&problem.world, &chain).unwrap();
+    let mut measure = PartialDiscrepancy::new(&problem.goals, problem.execution.metric);
+    let mut seen = vec![0.0; 3];
+    let mut discrepancy = 0.0;
+    for goal in &result.goals {
+        world.observe(&goal.joints, &mut seen);
+        discrepancy = measure.of(&seen);
+        measure.append(&seen);
+    }
+    discrepancy
+}
+
+#[test]
+fn the_interval_contains_the_true_discrepancy_nearly_always() {
+    let runs: u32 = 40;
+    let problem = noisy(2.0);
+    let contained = |seed: &u32| {
+        let result = run(&problem, u64::from(*seed)).unwrap();
+        let (truth, estimate) = (undisturbed(&problem, &result), result.estimate.unwrap());
+        assert!(estimate.lower <= estimate.value && estimate.value <= estimate.upper);
+        estimate.lower <= truth && truth <= estimate.upper
+    };
+    let share = (1..=runs).filter(contained).count() as f64 / f64::from(runs);
+    assert!(share >= 0.85, "{share}");
+    assert_eq!(run(&noisy(0.0), 1).unwrap().estimate, None);
 }

@@ -1,6 +1,8 @@
 //! Results of an execution, goal by goal, and progress of a running one.
 
 use super::path::{Executed, PathPose};
+use super::true_discrepancy::DiscrepancyEstimate;
+use super::verdict::{Judgement, RunVerdict};
 use crate::method::per_goal::{Provenance, StopReason, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -31,6 +33,9 @@ pub struct GoalResult {
     pub true_discrepancy: Option<f64>,
     /// Reason why the search for this goal ended.
     pub stop_reason: StopReason,
+    /// Verdict on this goal; decided anew from the rest when a run is resumed.
+    #[serde(default)]
+    pub judgement: Judgement,
     /// U_j: free joints in gene order, rad or m.
     pub joints: Vec<f64>,
     /// O_j: the observed features, in the goals' order.
@@ -79,6 +84,10 @@ pub struct RunResult {
     /// that the search never executed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub true_discrepancy: Option<f64>,
+    /// Estimate of the discrepancy of the winners' undisturbed effects; `None` unless the method models the features and
+    /// was told their noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimate: Option<DiscrepancyEstimate>,
     /// Whether the last goal's joints satisfy the constraints; true if there are none.
     #[serde(default = "satisfied")]
     pub valid: bool,
@@ -113,6 +122,13 @@ impl RunResult {
     #[must_use]
     pub fn waypoints(&self) -> Vec<Vec<f64>> {
         self.goals.iter().map(|g| g.joints.clone()).collect()
+    }
+
+    /// The verdict on the run.
+    #[must_use]
+    pub fn verdict(&self) -> RunVerdict {
+        let goals: Vec<_> = self.goals.iter().map(|goal| (goal.judgement.verdict, goal.feasible)).collect();
+        RunVerdict::of(&goals)
     }
 }
 

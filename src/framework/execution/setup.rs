@@ -5,11 +5,13 @@ use super::error::ProblemError;
 use super::goal_search::GoalSearch;
 use super::result::GoalResult;
 use super::spec::{ExecutionSpec, Problem};
+use super::verdict::{self, Judgement};
 use crate::CellSet;
 use crate::constraint::{Constraints, Judge, JudgeState, Rules};
+use crate::distance::distance;
 use crate::generalization::Goals;
 use crate::method::MethodKind;
-use crate::method::per_goal::{OptimizerState, PerGoalMethod, SearchSpace};
+use crate::method::per_goal::{OptimizerState, PerGoalMethod, SearchSpace, StopReason};
 use crate::method::whole_run::Trial;
 use crate::robot::{Chain, RobotModel};
 use crate::world::{self, WorldSpec};
@@ -27,6 +29,8 @@ pub(super) struct Setup {
     pub world_features: usize,
     /// Index of the painted percentage among the world's features; `None` if the world has no surface.
     pub painted: Option<usize>,
+    /// Largest distance of an observation from its goal that counts as reached, features' unit.
+    pub tolerance: f64,
     pub constraints: Arc<Constraints>,
     /// Trials of earlier runs on the same robot.
     pub earlier: Vec<Trial>,
@@ -86,6 +90,7 @@ impl Setup {
         }
         check_earlier(&problem.earlier, chain.len(), select.len())?;
         Ok(Self {
+            tolerance: verdict::tolerance(&spec, &problem.world.properties(), &problem.goals),
             goals: problem.goals.clone(),
             chain,
             spec,
@@ -96,6 +101,19 @@ impl Setup {
             constraints: Arc::new(constraints),
             earlier: problem.earlier.clone(),
         })
+    }
+
+    /// The verdict on goal `index`, whose search ended for `stop_reason` with `observation` (m features); `None` if the
+    /// winner was never executed.
+    pub(super) fn judge(&self, index: usize, observation: Option<&[f64]>, stop_reason: StopReason) -> Judgement {
+        let miss = observation.map(|seen| distance(seen, self.goals.row(index)));
+        Judgement::new(miss, self.tolerance, stop_reason)
+    }
+
+    /// The verdict on a goal that has ended.
+    pub(super) fn judge_again(&self, goal: &GoalResult) -> Judgement {
+        let is_executed = goal.provenance.is_executed() || goal.true_discrepancy.is_some();
+        self.judge(goal.index, is_executed.then_some(&goal.observation), goal.stop_reason)
     }
 
     /// The cells in an observation of all the world's features; `None` if cells are not seen.

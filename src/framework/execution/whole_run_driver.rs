@@ -6,15 +6,13 @@ use super::error::ProblemError;
 use super::path::{Executed, PathPose, along_effects, along_goals};
 use super::result::{GoalResult, TracePoint};
 use super::setup::Setup;
+use super::true_discrepancy::DiscrepancyEstimate;
 use crate::constraint::Proposal;
 use crate::method::per_goal::{Provenance, StopReason, Tally};
 use crate::method::whole_run::{
     NextTrial, RunSetup, Space, StepLimits, Stepped, Targets, Trial, WholeRun, WholeRunMethod,
 };
 use std::sync::Arc;
-
-/// Tolerance as a share of the goals' extent, if the problem gives none.
-const TOLERANCE_SHARE: f64 = 0.1;
 
 /// A method with the trial that it proposes next.
 pub(super) struct WholeRunDriver {
@@ -112,6 +110,14 @@ impl WholeRunDriver {
         along_effects(executed, start, &served, self.method.accepted())
     }
 
+    /// Estimate of the true discrepancy of `results`; `None` unless the method models the features and knows their noise.
+    pub fn estimate(&mut self, setup: &Setup, results: &[GoalResult], seed: u64) -> Option<DiscrepancyEstimate> {
+        let poses: Vec<&[f64]> = results.iter().map(|result| result.joints.as_slice()).collect();
+        let believed = self.method.believed(&poses)?;
+        let measure = PartialDiscrepancy::new(&setup.goals, setup.spec.metric);
+        Some(DiscrepancyEstimate::of(&believed, &measure, seed))
+    }
+
     /// The results of all goals, once the method has finished.
     pub fn results(
         &mut self,
@@ -121,7 +127,7 @@ impl WholeRunDriver {
     ) -> Result<Vec<GoalResult>, ProblemError> {
         let is_on_target = self.reaches_target();
         let outcomes = self.method.outcomes();
-        let used_up: Vec<bool> = (0..outcomes.len()).map(|goal| self.method.is_used_up(goal)).collect();
+        let ended: Vec<StopReason> = (0..outcomes.len()).map(|goal| self.method.ended_by(goal)).collect();
         let log = self.method.log();
         if log.is_empty() && !setup.constraints.is_empty() {
             let home = Proposal { joints: setup.chain.home(), origins: [None; 2], previous: None };
@@ -146,20 +152,20 @@ impl WholeRunDriver {
             let pose = Proposal { joints: &joints, origins: [None; 2], previous };
             let feasible = setup.constraints.is_feasible(&pose);
             discrepancy.append(&observation);
+            let stop_reason = if outcome.distance <= setup.tolerance {
+                StopReason::Tolerance
+            } else if is_on_target {
+                StopReason::Target
+            } else {
+                ended[index]
+            };
             results.push(GoalResult {
                 index,
                 evaluations,
                 failures: 0,
                 discrepancy: value,
-                stop_reason: if outcome.reached {
-                    StopReason::Tolerance
-                } else if is_on_target {
-                    StopReason::Target
-                } else if used_up[index] {
-                    StopReason::MaxEvaluations
-                } else {
-                    StopReason::OutOfReach
-                },
+                stop_reason,
+                judgement: setup.judge(index, Some(&observation), stop_reason),
                 joints,
                 observation,
                 provenance,
@@ -179,10 +185,9 @@ impl WholeRunDriver {
 /// A search by `method` that keeps to the constraints.
 fn within_limits(setup: &Setup, method: &dyn WholeRunMethod, seed: u64) -> Result<Box<dyn WholeRun>, ProblemError> {
     let goals: Vec<Vec<f64>> = setup.goals.rows().map(<[f64]>::to_vec).collect();
-    let tolerance = setup.spec.tolerance.unwrap_or_else(|| TOLERANCE_SHARE * extent(&goals));
     let space = space(setup);
     let limits = step_limits(setup, &space, method.max_step_deg());
-    let targets = Targets { goals, tolerance };
+    let targets = Targets { goals, tolerance: setup.tolerance };
     let inner = method.start(&RunSetup {
         space: &space,
         targets: &targets,
@@ -220,14 +225,4 @@ fn space(setup: &Setup) -> Space {
     }
     let constraints = Arc::clone(&setup.constraints);
     space.only(Arc::new(move |pose| constraints.allows(pose)))
-}
-
-/// Diagonal of the box around the goals, features' unit; 1 if all goals are equal.
-fn extent(goals: &[Vec<f64>]) -> f64 {
-    let side = |k: usize| {
-        let column = || goals.iter().map(|g| g[k]);
-        column().fold(f64::NEG_INFINITY, f64::max) - column().fold(f64::INFINITY, f64::min)
-    };
-    let diagonal = (0..goals[0].len()).map(|k| side(k).powi(2)).sum::<f64>().sqrt();
-    if diagonal > 0.0 { diagonal } else { 1.0 }
 }

@@ -5,7 +5,9 @@ use super::step::{JointStep, largest_step};
 use super::way;
 use crate::CellSet;
 use crate::collision::CollisionModel;
-use crate::execution::{Moves, Problem, ProblemError, Replay, Replayed, RunResult, SAMPLES_PER_MOVE, replay};
+use crate::execution::{
+    Moves, Problem, ProblemError, Replay, Replayed, RunResult, RunVerdict, SAMPLES_PER_MOVE, replay,
+};
 use crate::robot::{Chain, RobotModel};
 use crate::trajectory::{CheckedTrajectory, PlanSpec, TrajectoryError, Waypoint, plan};
 
@@ -22,6 +24,8 @@ pub struct Motion {
     pub largest_step: Option<JointStep>,
     /// The effect of the motion, beside that which the run claims.
     pub replay: Replay,
+    /// The verdict on the run, invalid if the replay differs.
+    pub verdict: RunVerdict,
     /// The cells that the motion covers, painting at its poses; `None` unless the world is a surface.
     pub cells: Option<CellSet>,
 }
@@ -82,7 +86,8 @@ pub fn deliver(problem: &Problem, result: &RunResult, planning: &PlanSpec) -> Re
         trajectory = Err(MotionError::Replay(difference.to_string()));
     }
     let largest_step = largest_step(&chain, &result.path, &poses);
-    Ok(Motion { poses, trajectory, pose_times_s, largest_step, replay, cells })
+    let verdict = result.verdict().replayed(replay.agrees);
+    Ok(Motion { verdict, poses, trajectory, pose_times_s, largest_step, replay, cells })
 }
 
 struct Planner<'a> {

@@ -5,6 +5,7 @@ use crate::app::model::{AppError, JobKind, ParameterType};
 use crate::framework::collision::HomeContacts;
 use crate::framework::constraint::{OnInfeasible, PenaltyForm, Side};
 use crate::framework::demonstration::{ClockPolicy, Format, Severity};
+use crate::framework::execution::{RunOutcome, Verdict};
 use crate::framework::experiment::Quantity;
 use crate::framework::generalization::Weighting;
 use crate::framework::job::State;
@@ -88,7 +89,9 @@ enumerations! {
     Metric = Metric, "a metric" { SumOfFeatures, Multivariate, Aquila }
     Weighting = Weighting, "a weighting" { PerSample, PerDemonstration }
     Provenance = Provenance, "a provenance" { Simulated, Real, Inherited, Granule, Penalised }
-    StopReason = StopReason, "a reason to stop" { Stagnation, Target, Tolerance, MaxEvaluations, Infeasible, OutOfReach }
+    StopReason = StopReason, "a reason to stop" { Stagnation, Target, Tolerance, MaxEvaluations, Infeasible, OutOfReach, NoImprovement }
+    Verdict = Verdict, "a verdict" { Reached, StoppedShort, OutOfReach }
+    RunOutcome = RunOutcome, "an outcome of a run" { Complete, GoalsMissed, Invalid }
     State = JobState, "a state of a job" {
         Queued, Preparing, Running, Pausing, Paused, Interrupted, Cancelling, Cancelled,
         Succeeded, Failed,

@@ -41,6 +41,7 @@ fn data(data: EventData) -> Data {
 mod tests {
     use super::*;
     use crate::app::model::{GoalProgress, JobId, JobProgress, RunId, Timestamp, TrialProgress};
+    use crate::framework::execution::{Judgement, Verdict};
     use crate::framework::job::State;
     use crate::framework::method::per_goal::StopReason;
     use uuid::Uuid;
@@ -68,11 +69,13 @@ mod tests {
             evaluations: 3,
             discrepancy: 4.5,
             stop_reason: StopReason::MaxEvaluations,
+            judgement: Some(Judgement { verdict: Verdict::StoppedShort, distance: Some(0.3), tolerance: 0.2 }),
             joints: vec![0.1],
             observation: vec![0.2],
             residual: Some(0.3),
         };
         let Data::Goal(goal) = converted(EventData::Goal { goal }) else { panic!("a goal") };
+        assert_eq!(goal.judgement.unwrap().verdict(), proto::Verdict::StoppedShort);
         assert_eq!((goal.stop_reason(), goal.residual), (proto::StopReason::MaxEvaluations, Some(0.3)));
 
         let trial = TrialProgress { repetition: 1, index: 2, goal: 3, residual: None };

@@ -107,14 +107,24 @@ impl From<TrialProgress> for proto::TrialProgress {
 
 impl From<GoalProgress> for proto::GoalProgress {
     fn from(goal: GoalProgress) -> Self {
-        let GoalProgress { repetition, index, evaluations, discrepancy, stop_reason, joints, observation, residual } =
-            goal;
+        let GoalProgress {
+            repetition,
+            index,
+            evaluations,
+            discrepancy,
+            stop_reason,
+            judgement,
+            joints,
+            observation,
+            residual,
+        } = goal;
         Self {
             repetition,
             index,
             evaluations,
             discrepancy,
             stop_reason: stop_reason.number(),
+            judgement: judgement.map(Into::into),
             joints,
             observation,
             residual,

@@ -3,7 +3,7 @@
 use super::enumeration::Enumeration as _;
 use super::{all, time};
 use crate::app::model::{Convergence, ConvergencePoint, PathPose, RunGoal, RunGoals, RunTrials, RunView};
-use crate::framework::execution::{AlongMotion, Difference, Replay};
+use crate::framework::execution::{AlongMotion, Difference, DiscrepancyEstimate, Judgement, Replay, RunVerdict};
 use crate::framework::method::per_goal::Tally;
 use crate::framework::method::whole_run::Trial;
 use crate::framework::motion::JointStep;
@@ -24,6 +24,8 @@ impl From<RunView> for proto::Run {
             evaluations,
             discrepancy,
             true_discrepancy,
+            estimate,
+            verdict,
             valid,
             provenance,
             painted_percent,
@@ -48,6 +50,8 @@ impl From<RunView> for proto::Run {
             evaluations,
             discrepancy,
             true_discrepancy,
+            estimate: estimate.map(Into::into),
+            verdict: verdict.map(Into::into),
             valid,
             provenance: Some(provenance.into()),
             painted_percent,
@@ -96,6 +100,27 @@ impl From<Difference> for proto::Difference {
     }
 }
 
+impl From<DiscrepancyEstimate> for proto::DiscrepancyEstimate {
+    fn from(estimate: DiscrepancyEstimate) -> Self {
+        let DiscrepancyEstimate { value, lower, upper } = estimate;
+        Self { value, lower, upper }
+    }
+}
+
+impl From<RunVerdict> for proto::RunVerdict {
+    fn from(verdict: RunVerdict) -> Self {
+        let RunVerdict { outcome, reached, stopped_short, out_of_reach } = verdict;
+        Self { outcome: outcome.number(), reached, stopped_short, out_of_reach }
+    }
+}
+
+impl From<Judgement> for proto::Judgement {
+    fn from(judgement: Judgement) -> Self {
+        let Judgement { verdict, distance, tolerance } = judgement;
+        Self { verdict: verdict.number(), distance, tolerance }
+    }
+}
+
 impl From<Tally> for proto::Tally {
     fn from(tally: Tally) -> Self {
         let Tally { simulated, real, inherited, granule, penalised, worsened, rejected, repaired } = tally;
@@ -131,6 +156,7 @@ impl From<RunGoal> for proto::RunGoal {
             evaluations,
             discrepancy,
             stop_reason,
+            judgement,
             joints,
             observation,
             goal,
@@ -145,6 +171,7 @@ impl From<RunGoal> for proto::RunGoal {
             evaluations,
             discrepancy,
             stop_reason: stop_reason.number(),
+            judgement: judgement.map(Into::into),
             joints,
             observation,
             goal,
@@ -194,6 +221,7 @@ impl From<ConvergencePoint> for proto::ConvergencePoint {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::framework::execution::Verdict;
     use crate::framework::method::per_goal::{Provenance, StopReason};
     use crate::framework::recognition::Metric;
 
@@ -212,6 +240,11 @@ mod tests {
         let tally = message.provenance.unwrap();
         assert_eq!((tally.simulated, tally.rejected, tally.repaired), (1, 7, 0));
         assert_eq!(message.metric(), proto::Metric::SumOfFeatures);
+        let verdict = message.verdict.unwrap();
+        assert_eq!(verdict.outcome(), proto::RunOutcome::GoalsMissed);
+        assert_eq!((verdict.reached, verdict.stopped_short, verdict.out_of_reach), (6, 2, 1));
+        let estimate = message.estimate.unwrap();
+        assert_eq!((estimate.value, estimate.lower, estimate.upper), (0.3, 0.2, 0.5));
         let step = message.largest_step.unwrap();
         assert_eq!((step.joint.as_str(), step.goal_index, step.size), ("j2", 1, 0.4));
     }
@@ -223,6 +256,7 @@ mod tests {
             evaluations: 2,
             discrepancy: 3.5,
             stop_reason: StopReason::OutOfReach,
+            judgement: Some(Judgement { verdict: Verdict::OutOfReach, distance: Some(0.1), tolerance: 0.05 }),
             joints: vec![0.1],
             observation: vec![0.2],
             goal: vec![0.3],
@@ -234,6 +268,9 @@ mod tests {
         };
         let message = proto::RunGoal::from(goal);
         assert_eq!(message.stop_reason(), proto::StopReason::OutOfReach);
+        let judgement = message.judgement.unwrap();
+        assert_eq!(judgement.verdict(), proto::Verdict::OutOfReach);
+        assert_eq!((judgement.distance, judgement.tolerance), (Some(0.1), 0.05));
         assert_eq!(message.winner(), proto::Provenance::Inherited);
         assert!(!message.feasible);
         assert_eq!(message.provenance.unwrap().penalised, 9);

@@ -35,7 +35,7 @@ pub(super) fn finished_run(
     let trials = KeptTrials { setup_key: work.setup_key.clone(), trials: iet.log().to_vec() };
     let result = iet.finish()?;
     let id = RunId::from_uuid(marks.run);
-    let Motion { poses, trajectory, pose_times_s, largest_step, replay, cells } =
+    let Motion { poses, trajectory, verdict, pose_times_s, largest_step, replay, cells } =
         deliver(&work.problem, &result, &work.planning)?;
     let path: Vec<PathPose> = result.path.iter().zip(poses).map(path_pose).collect();
     let (trajectory, trajectory_problem) = match trajectory {
@@ -55,6 +55,8 @@ pub(super) fn finished_run(
         evaluations: result.evaluations,
         discrepancy: result.discrepancy,
         true_discrepancy: result.true_discrepancy,
+        estimate: result.estimate,
+        verdict: Some(verdict),
         valid: result.valid && replay.agrees,
         provenance: result.tally,
         painted_percent: replay.painted_percent,
@@ -120,6 +122,7 @@ fn goals(result: &RunResult, work: &ExecutionWork) -> Vec<RunGoal> {
         evaluations: goal.evaluations,
         discrepancy: goal.discrepancy,
         stop_reason: goal.stop_reason,
+        judgement: Some(goal.judgement),
         joints: goal.joints.clone(),
         observation: goal.observation.clone(),
         goal: wanted.to_vec(),

@@ -57,6 +57,7 @@ impl Report {
             evaluations: goal.evaluations,
             discrepancy: goal.discrepancy,
             stop_reason: goal.stop_reason,
+            judgement: Some(goal.judgement),
             joints: goal.joints.clone(),
             observation: goal.observation.clone(),
             residual: Some(distance(&goal.observation, self.problem.goals.row(goal.index))),

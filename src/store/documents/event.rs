@@ -1,7 +1,7 @@
 //! An event of a job; its number, its job and its time are columns.
 
 use super::progress::{Goal, Progress, Trial, with_trials};
-use super::versions;
+use super::{unchanged, versions};
 use crate::app::model::{EventData, RunId, TrajectoryId};
 use crate::app::ports::StoreError;
 use crate::framework::infinite_as_null;
@@ -34,7 +34,8 @@ pub(in crate::store) enum Event {
         digest: String,
     },
 }
-versions! { Event keeps EventData, "event", [with_trials_of_progress] }
+// Version 1 is that of the builds without verdicts: what is missing is read as none.
+versions! { Event keeps EventData, "event", [with_trials_of_progress, unchanged] }
 
 fn with_trials_of_progress(mut event: Value) -> Value {
     if let Some(progress) = event.get_mut("progress") {

@@ -1,7 +1,8 @@
 //! Progress of a job, with the finished goals and the trials of its present repetition.
 
-use super::{complete, document, versions};
+use super::{complete, document, unchanged, versions};
 use crate::app::model::{GoalProgress, JobProgress, TrialProgress};
+use crate::framework::execution::Judgement;
 use crate::framework::infinite_as_null;
 use crate::framework::method::per_goal::StopReason;
 use serde_json::{Value, json};
@@ -21,7 +22,8 @@ document! {
     }
     each { finished_goals: Goal, trials: Trial, }
 }
-versions! { Progress keeps JobProgress, "progress", [with_trials] }
+// Version 1 is that of the builds without verdicts: what is missing is read as none.
+versions! { Progress keeps JobProgress, "progress", [with_trials, unchanged] }
 
 /// Version 0 of the builds before methods that remember their trials has none.
 pub(super) fn with_trials(mut progress: Value) -> Value {
@@ -38,6 +40,7 @@ document! {
         #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
         stop_reason: StopReason,
+        judgement: Option<Judgement>,
         joints: Vec<f64>,
         #[serde(with = "infinite_as_null")]
         observation: Vec<f64>,

@@ -8,7 +8,7 @@ use crate::app::model::{
 };
 use crate::framework::CellSet;
 use crate::framework::Feature;
-use crate::framework::execution::Replay;
+use crate::framework::execution::{DiscrepancyEstimate, Judgement, Replay, RunVerdict};
 use crate::framework::infinite_as_null;
 use crate::framework::method::per_goal::{Provenance, StopReason};
 use crate::framework::motion::JointStep;
@@ -32,6 +32,8 @@ document! {
         #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
         true_discrepancy: Option<f64>,
+        estimate: Option<DiscrepancyEstimate>,
+        verdict: Option<RunVerdict>,
         valid: bool,
         painted_percent: Option<f64>,
         goals: u32,
@@ -44,6 +46,7 @@ document! {
     }
     with { provenance: Tally, }
 }
+// Version 2 is that of the builds without verdicts and estimates: what is missing is read as none.
 versions! { Run keeps RunView, "run", [with_constraints, with_largest_step, with_replay] }
 
 /// Version 0 of the builds without constraints: every run was valid, and nothing was counted.
@@ -100,6 +103,7 @@ document! {
         #[serde(with = "infinite_as_null::number")]
         discrepancy: f64,
         stop_reason: StopReason,
+        judgement: Option<Judgement>,
         joints: Vec<f64>,
         #[serde(with = "infinite_as_null")]
         observation: Vec<f64>,

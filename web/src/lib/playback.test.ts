@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { reachedBy, indexAt, named, positionsAt } from "./playback";
+import { indexAt, named, passedBy, positionsAt } from "./playback";
 
 const points = [
   { t_s: 0, positions: [0, 1] },
@@ -27,8 +27,8 @@ it("finds the point before a time", () => {
   expect([-1, 0, 0.99, 1, 2.9, 3, 7].map((time) => indexAt(points, time))).toEqual([0, 0, 0, 1, 1, 2, 2]);
 });
 
-it("counts reached goals", () => {
-  expect(reachedBy([0.1, 0.3, 0.9], 0.1 + 0.2)).toBe(2);
+it("counts goals passed", () => {
+  expect(passedBy([0.1, 0.3, 0.9], 0.1 + 0.2)).toBe(2);
 });
 
 it("pairs names with values", () => {

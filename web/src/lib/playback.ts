@@ -33,7 +33,7 @@ export function named(names: readonly string[], values: readonly number[]): Reco
   return Object.fromEntries(names.map((name, index) => [name, values[index] ?? 0]));
 }
 
-/** Number of goals or poses reached by `time`; one counts if its time is reached within rounding error. */
-export function reachedBy(times: readonly number[], time: number): number {
-  return times.filter((reached) => reached <= time + 1e-9).length;
+/** Number of goals or poses passed by `time`, within rounding error; whether goals are reached is the verdict's to say. */
+export function passedBy(times: readonly number[], time: number): number {
+  return times.filter((passed) => passed <= time + 1e-9).length;
 }

@@ -8,6 +8,7 @@ const goal = (index: number, evaluations: number, discrepancy: number): GoalProg
   evaluations,
   discrepancy,
   stop_reason: "stagnation",
+  judgement: { verdict: "reached", distance: 3, tolerance: 5 },
   joints: [0, 0, 0],
   observation: [1, 2, 3],
   residual: null,

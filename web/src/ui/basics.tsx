@@ -4,6 +4,7 @@ import type { ReactNode } from "react";
 import { Link } from "react-router";
 import type { JobState } from "../api/types";
 import { stateInfo, type Tone } from "../lib/states";
+import type { VerdictInfo } from "../lib/verdicts";
 
 export function StateBadge({ state }: { state: JobState }) {
   const info = stateInfo(state);
@@ -12,6 +13,16 @@ export function StateBadge({ state }: { state: JobState }) {
 
 export function Badge({ tone, children }: { tone: Tone; children: ReactNode }) {
   return <span className={`badge tone-${tone}`}>{children}</span>;
+}
+
+/** A verdict in its colour, explained when pointed at; a dash if there is none. */
+export function VerdictBadge({ verdict }: { verdict: VerdictInfo | null }) {
+  if (verdict === null) return <>–</>;
+  return (
+    <span className={`badge tone-${verdict.tone}`} title={verdict.meaning}>
+      {verdict.label}
+    </span>
+  );
 }
 
 interface HeadProps {

@@ -176,12 +176,18 @@ impl Iet {
         let path = if self.is_finished() { self.path() } else { Vec::new() };
         let unfinished = ProblemError::Unfinished { goal: self.results.len(), goals };
         let Some(last) = self.results.last().filter(|_| self.is_finished()) else { return Err(unfinished) };
+        let (discrepancy, true_discrepancy, valid) = (last.discrepancy, last.true_discrepancy, last.feasible);
+        let estimate = match &mut self.search {
+            Search::WholeRun(driver) => driver.estimate(&self.setup, &self.results, self.seed),
+            Search::PerGoal { .. } => None,
+        };
         Ok(RunResult {
             seed: self.seed,
             evaluations: self.evaluations,
-            discrepancy: last.discrepancy,
-            true_discrepancy: last.true_discrepancy,
-            valid: last.feasible,
+            discrepancy,
+            true_discrepancy,
+            estimate,
+            valid,
             painted_percent: self.painted,
             tally: self.results.iter().map(|goal| goal.tally).sum(),
             digest: digest(&self.results),

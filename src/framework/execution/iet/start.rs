@@ -86,6 +86,9 @@ impl Iet {
             iet.discrepancy.append(&result.observation);
         }
         iet.results = state.results;
+        for result in &mut iet.results {
+            result.judgement = iet.setup.judge_again(result);
+        }
         iet.evaluations = state.evaluations;
         iet.goal = state.goal;
         iet.painted = state.painted;

@@ -181,13 +181,16 @@ impl Iet {
         let proposal = Proposal { joints: &winner.joints, origins: [None; 2], previous };
         let feasible = winner.provenance != Provenance::Penalised && self.setup.constraints.is_feasible(&proposal);
         let tally = Tally { simulated: state.evaluations - state.real, real: state.real, ..tally };
+        let is_executed = winner.provenance.is_executed() || winner.confirmed.is_some();
+        let index = self.results.len();
         self.results.push(GoalResult {
-            index: self.results.len(),
+            index,
             evaluations: state.evaluations,
             failures: state.failures,
             discrepancy: winner.fitness,
             true_discrepancy: winner.confirmed,
             stop_reason,
+            judgement: self.setup.judge(index, is_executed.then_some(&winner.observation), stop_reason),
             joints: winner.joints,
             observation: winner.observation,
             provenance: winner.provenance,

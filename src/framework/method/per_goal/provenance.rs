@@ -42,8 +42,11 @@ pub enum StopReason {
     MaxEvaluations,
     /// The search ended without a candidate that satisfies the constraints.
     Infeasible,
-    /// No pose is expected to come nearer: the result is the best residual.
+    /// No pose is expected to come nearer, and a restart from another region of the joint space agreed: the result is the
+    /// best residual.
     OutOfReach,
+    /// No pose is expected to come nearer, but no restart has confirmed it.
+    NoImprovement,
 }
 
 /// Counts of fitness values by origin, and of the ways infeasible candidates were handled.

@@ -22,7 +22,7 @@ mod surface;
 pub use broyden::{Broyden, BroydenSpec};
 pub use model::{ModelIet, ModelSpec, Prior};
 pub use particle::ParticleSpec;
-pub use planner::{FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
+pub use planner::{Believed, FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 pub use search::SearchIet;
 pub use space::{Allows, Axis, Space};
 pub use steps::{StepLimits, Stepped, Targets};

@@ -3,6 +3,7 @@
 use super::space::Space;
 use super::steps::Targets;
 use crate::CellSet;
+use crate::method::per_goal::StopReason;
 use crate::robot::Chain;
 use crate::world::{WorldError, WorldSpec};
 use serde::{Deserialize, Serialize};
@@ -58,8 +59,15 @@ pub struct GoalOutcome {
     /// Its distance from the goal, features' unit (with noise: of the model's mean there); infinite if nothing was
     /// observed.
     pub distance: f64,
-    /// Whether the goal is reached; otherwise `distance` is the best residual.
-    pub reached: bool,
+}
+
+/// Knowledge of the undisturbed features at a pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Believed {
+    /// Their m means, features' unit.
+    pub mean: Vec<f64>,
+    /// Variance of each of them, features' unit squared.
+    pub variance: f64,
 }
 
 /// A search for all goals at once. Its state is its configuration and its log: to resume, tell a fresh one the log.
@@ -83,6 +91,29 @@ pub trait WholeRun: Send {
 
     /// Whether the goal ended because its trials were used up, with hope left.
     fn is_used_up(&self, goal: usize) -> bool;
+
+    /// Whether a restart from another region of the joint space has agreed that no pose comes nearer to the goal.
+    fn has_restarted(&mut self, goal: usize) -> bool {
+        let _ = goal;
+        false
+    }
+
+    /// Knowledge of the undisturbed features at `poses`; `None` unless the method models them and knows their noise.
+    fn believed(&mut self, poses: &[&[f64]]) -> Option<Vec<Believed>> {
+        let _ = poses;
+        None
+    }
+
+    /// Reason why the search for a goal ended that it did not come within the tolerance of.
+    fn ended_by(&mut self, goal: usize) -> StopReason {
+        if self.is_used_up(goal) {
+            StopReason::MaxEvaluations
+        } else if self.has_restarted(goal) {
+            StopReason::OutOfReach
+        } else {
+            StopReason::NoImprovement
+        }
+    }
 }
 
 /// Input of a method that plans the whole run.

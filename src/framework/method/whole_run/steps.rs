@@ -1,15 +1,15 @@
 //! Decorator that keeps a whole-run method inside the allowed region and within one bounded step of the previous pose.
 //!
 //! A proposed pose that is allowed and close enough is passed on unchanged. Otherwise the trial goes as far towards it
-//! as one step allows, to an allowed pose. If there is no allowed pose within one step, the run ends, and unreached
-//! goals are out of reach. The previous pose is normally that of the last trial; if the world is reset, the robot
+//! as one step allows, to an allowed pose. If there is no allowed pose within one step, the run ends, and the goals
+//! not reached are stopped short. The previous pose is normally that of the last trial; if the world is reset, the robot
 //! returns to its start and repeats the accepted poses, and the last of them is the previous pose.
 //!
 //! If consecutive *goals* may be at most one step apart, the result is the sequence of measured poses with the smallest
 //! sum of squared distances from the goals that respects this limit (dynamic programming over goals and trials).
 
 use super::space::Space;
-use super::{GoalOutcome, NextTrial, Trial, WholeRun};
+use super::{Believed, GoalOutcome, NextTrial, Trial, WholeRun};
 use crate::distance::squared_distance;
 use crate::random::RandomStream;
 
@@ -148,11 +148,7 @@ impl Stepped {
         let mut outcomes = Vec::with_capacity(chosen.len());
         for (goal, before) in self.targets.goals.iter().zip(&chosen).rev() {
             let distance = squared_distance(goal, observed[at].2).sqrt();
-            outcomes.push(GoalOutcome {
-                trial: Some(observed[at].0),
-                distance,
-                reached: distance <= self.targets.tolerance,
-            });
+            outcomes.push(GoalOutcome { trial: Some(observed[at].0), distance });
             at = before[at];
         }
         outcomes.reverse();
@@ -189,6 +185,14 @@ impl WholeRun for Stepped {
 
     fn is_used_up(&self, goal: usize) -> bool {
         self.inner.is_used_up(goal)
+    }
+
+    fn believed(&mut self, poses: &[&[f64]]) -> Option<Vec<Believed>> {
+        self.inner.believed(poses)
+    }
+
+    fn has_restarted(&mut self, goal: usize) -> bool {
+        self.inner.has_restarted(goal)
     }
 
     fn outcomes(&mut self) -> Vec<GoalOutcome> {

@@ -19,13 +19,14 @@ pub(super) fn broyden(at: &str, message: proto::BroydenMethod) -> Result<Broyden
 }
 
 pub(super) fn model(at: &str, message: proto::ModelIet) -> Result<ModelSpec, AppError> {
-    let proto::ModelIet { noise, max_tries, identification_deg, max_step_deg, prior } = message;
+    let proto::ModelIet { noise, max_tries, identification_deg, max_step_deg, prior, restarts } = message;
     let default = ModelSpec::default();
     Ok(ModelSpec {
         noise: number(at, "noise", noise, default.noise)?,
         max_tries: max_tries.unwrap_or(default.max_tries),
         identification_deg: number(at, "identification_deg", identification_deg, default.identification_deg)?,
         max_step_deg: number_or_none(at, "max_step_deg", max_step_deg, default.max_step_deg)?,
+        restarts,
         prior: Prior::read(&format!("{at}/prior"), prior)?.unwrap_or(default.prior),
     })
 }
@@ -68,12 +69,13 @@ impl From<BroydenSpec> for proto::BroydenMethod {
 
 impl From<ModelSpec> for proto::ModelIet {
     fn from(spec: ModelSpec) -> Self {
-        let ModelSpec { noise, max_tries, identification_deg, max_step_deg, prior } = spec;
+        let ModelSpec { noise, max_tries, identification_deg, max_step_deg, restarts, prior } = spec;
         Self {
             noise: Some(noise),
             max_tries: Some(max_tries),
             identification_deg: Some(identification_deg),
             max_step_deg,
+            restarts,
             prior: prior.number(),
         }
     }

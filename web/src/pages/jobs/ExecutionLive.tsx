@@ -4,6 +4,7 @@ import { Chart } from "../../charts/Chart";
 import type { GoalProgress, Job, JobProgress, JobState, TrialProgress } from "../../api/types";
 import { formatCount, formatDuration, formatNumber, formatPercent, formatQuantity } from "../../lib/format";
 import { isFinal } from "../../lib/states";
+import { countVerdicts } from "../../lib/verdicts";
 import type { LiveJob } from "../../live/jobLive";
 import { Card, Facts, ProgressBar, type Fact } from "../../ui/basics";
 import { ProvenanceLegend } from "../../ui/Provenance";
@@ -83,15 +84,18 @@ interface SummaryProps {
   unit: string;
 }
 
-/** Number of goals reached; goals that ended out of reach do not count. */
+/** Number of goals that the server calls reached, and of those missed. */
 function goalsFact({ progress, goals, trials }: Pick<SummaryProps, "progress" | "goals" | "trials">): Fact {
   if (trials.length > 0 && goals.length === 0) {
     return { name: "Goals tried", value: `${new Set(trials.map((trial) => trial.goal)).size} of ${progress.goals}` };
   }
-  const ended = Math.min(progress.goals, Math.max(progress.finished_goals.length, progress.goal_index));
-  const beyond = goals.filter((goal) => goal.stop_reason === "out_of_reach").length;
-  const reached = `${ended - beyond} of ${progress.goals}`;
-  return { name: "Goals reached", value: progress.goals === 0 ? "–" : beyond === 0 ? reached : `${reached}, ${beyond} out of reach` };
+  const { reached, stopped_short, out_of_reach } = countVerdicts(goals);
+  const missed = [
+    ...(stopped_short > 0 ? [`${stopped_short} stopped short`] : []),
+    ...(out_of_reach > 0 ? [`${out_of_reach} out of reach`] : []),
+  ];
+  const value = [`${reached} of ${progress.goals}`, ...missed].join(", ");
+  return { name: "Goals reached", value: progress.goals === 0 ? "–" : value };
 }
 
 function Summary({ job, progress, goals, trials, state, unit }: SummaryProps) {
@@ -138,12 +142,12 @@ function DiscrepancyChart({ live, unit, boundaries }: { live: LiveJob; unit: str
 }
 
 function CumulativeChart({ cumulative, goals }: { cumulative: number[]; goals: number }) {
-  if (cumulative.length === 0) return <p className="muted">The curve appears when the first goal is reached.</p>;
+  if (cumulative.length === 0) return <p className="muted">The curve appears when the first goal has ended.</p>;
   return (
     <Chart
       summary={`${formatCount(cumulative.at(-1))} evaluations for ${cumulative.length} of ${goals} goals`}
       x={[0, ...cumulative.map((_, index) => index + 1)]}
-      xLabel="goals reached"
+      xLabel="goals ended"
       counted
       yLabel="evaluations"
       series={[{ label: "evaluations", values: [0, ...cumulative], color: "curve" }]}

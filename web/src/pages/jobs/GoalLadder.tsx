@@ -1,7 +1,9 @@
-// The goals of a run in order: which ones are reached, at what cost, and which one is being searched.
+// The goals of a run in order: the verdict on each, its cost, and which one is being searched.
 
 import type { GoalProgress, TrialProgress } from "../../api/types";
 import { formatCount, formatNumber, humanize } from "../../lib/format";
+import { goalVerdict, type VerdictInfo } from "../../lib/verdicts";
+import { VerdictBadge } from "../../ui/basics";
 import { bestOf } from "./Trials";
 
 interface Props {
@@ -21,6 +23,9 @@ interface Rung {
   evaluations: number | null;
   /** Best discrepancy up to this goal or, with trials, the smallest distance from it. */
   best: number | null;
+  /** Verdict on a goal that has ended; null if there is none. */
+  verdict: VerdictInfo | null;
+  /** Reason why it ended, or what is being done about it. */
   note: string;
 }
 
@@ -39,7 +44,7 @@ export function GoalLadder({ goals, finished, active, trials, unit }: Props) {
           {trials.length > 0 ? "Distance" : "Best"}
           {unit && `, ${unit}`}
         </span>
-        <span>Ended by</span>
+        <span>Verdict</span>
       </li>
       {rungs.map((each) => (
         <li key={each.index} className={`rung ${each.kind}`} aria-label={describe(each)}>
@@ -49,7 +54,7 @@ export function GoalLadder({ goals, finished, active, trials, unit }: Props) {
           </span>
           <span className="numeric">{formatCount(each.evaluations)}</span>
           <span className="numeric">{formatNumber(each.best)}</span>
-          <span>{each.note}</span>
+          <span title={each.note}>{each.verdict === null ? each.note : <VerdictBadge verdict={each.verdict} />}</span>
         </li>
       ))}
     </ol>
@@ -60,12 +65,12 @@ function rung(index: number, finished: readonly GoalProgress[], active: Props["a
   const done = finished.find((goal) => goal.index === index);
   if (done !== undefined) {
     const { evaluations, discrepancy } = done;
-    return { index, kind: "done", evaluations, best: discrepancy, note: humanize(done.stop_reason) };
+    return { index, kind: "done", evaluations, best: discrepancy, ...ended(done) };
   }
   if (active?.index === index) {
-    return { index, kind: "active", evaluations: active.evaluations, best: active.discrepancy, note: "searching" };
+    return { index, kind: "active", evaluations: active.evaluations, best: active.discrepancy, verdict: null, note: "searching" };
   }
-  return { index, kind: "waiting", evaluations: null, best: null, note: "waiting" };
+  return { index, kind: "waiting", evaluations: null, best: null, verdict: null, note: "waiting" };
 }
 
 /** A goal of a method that switches between goals; all of its goals end together. */
@@ -73,17 +78,20 @@ function tried(index: number, finished: Props["finished"], active: Props["active
   const done = finished.find((goal) => goal.index === index);
   if (done !== undefined) {
     const { evaluations, residual } = done;
-    const reached = done.stop_reason === "tolerance" ? (evaluations === 0 ? "reached on the way" : "reached") : humanize(done.stop_reason);
-    return { index, kind: "done", evaluations, best: residual, note: reached };
+    return { index, kind: "done", evaluations, best: residual, ...ended(done) };
   }
   const evaluations = trials.filter((trial) => trial.goal === index).length;
   const best = bestOf(trials, index);
-  if (active?.index === index) return { index, kind: "active", evaluations, best, note: "trying" };
-  return { index, kind: "waiting", evaluations: evaluations === 0 ? null : evaluations, best, note: evaluations === 0 ? "waiting" : "tried" };
+  if (active?.index === index) return { index, kind: "active", evaluations, best, verdict: null, note: "trying" };
+  return { index, kind: "waiting", evaluations: evaluations === 0 ? null : evaluations, best, verdict: null, note: evaluations === 0 ? "waiting" : "tried" };
+}
+
+function ended(goal: GoalProgress): Pick<Rung, "verdict" | "note"> {
+  return { verdict: goalVerdict(goal.judgement), note: `ended by ${humanize(goal.stop_reason)}` };
 }
 
 function describe(rung: Rung): string {
-  const place = `Goal ${rung.index + 1}, ${rung.note}`;
+  const place = `Goal ${rung.index + 1}, ${rung.verdict === null ? rung.note : `${rung.verdict.label}, ${rung.note}`}`;
   if (rung.evaluations === null) return place;
   return `${place}: ${formatCount(rung.evaluations)} evaluations, best ${formatNumber(rung.best)}`;
 }

@@ -1,5 +1,7 @@
 import type { RunGoals } from "../../api/types";
 import { formatCount, formatNumber, humanize } from "../../lib/format";
+import { goalVerdict } from "../../lib/verdicts";
+import { VerdictBadge } from "../../ui/basics";
 
 /** Goal and observation, side by side for each goal. */
 export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) {
@@ -15,9 +17,10 @@ export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) 
                 {feature.unit && `, ${feature.unit}`}
               </th>
             ))}
-            <th scope="col" className="numeric">Distance</th>
+            <th scope="col" className="numeric">Distance (tolerance)</th>
             <th scope="col" className="numeric">Discrepancy</th>
             <th scope="col" className="numeric">Evaluations</th>
+            <th scope="col">Verdict</th>
             <th scope="col">Ended by</th>
           </tr>
         </thead>
@@ -30,9 +33,14 @@ export function GoalsTable({ goals: { features, goals } }: { goals: RunGoals }) 
                   {formatNumber(goal.goal[column])} <span className="muted">→</span> {formatNumber(goal.observation[column])}
                 </td>
               ))}
-              <td className="numeric">{formatNumber(goal.residual)}</td>
+              <td className="numeric">
+                {formatNumber(goal.residual)} <span className="muted">({formatNumber(goal.judgement?.tolerance)})</span>
+              </td>
               <td className="numeric">{formatNumber(goal.discrepancy)}</td>
               <td className="numeric">{formatCount(goal.evaluations)}</td>
+              <td className="nowrap">
+                <VerdictBadge verdict={goalVerdict(goal.judgement)} />
+              </td>
               <td className="nowrap">{humanize(goal.stop_reason)}</td>
             </tr>
           ))}

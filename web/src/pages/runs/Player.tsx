@@ -5,7 +5,7 @@ import type { Playback } from "./usePlayback";
 interface Props {
   play: Playback;
   durationS: number;
-  /** Times at which goals are reached. */
+  /** Times at which the poses of the goals are passed. */
   marks: readonly number[];
 }
 

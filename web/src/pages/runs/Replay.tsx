@@ -6,7 +6,7 @@ import type { Robot, Run, RunGoals, Trajectory, World } from "../../api/types";
 import type { WallGrid } from "../../lib/coverage";
 import { decimateMinMax } from "../../lib/decimate";
 import { formatNumber, formatQuantity } from "../../lib/format";
-import { indexAt, named, positionsAt, reachedBy } from "../../lib/playback";
+import { indexAt, named, passedBy, positionsAt } from "../../lib/playback";
 import { positionReader } from "../../lib/space";
 import { Card } from "../../ui/basics";
 import { Loaded, Loading } from "../../ui/feedback";
@@ -69,9 +69,9 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
   const wall = useMemo(() => wallOf(world), [world]);
   const joints = useMemo(() => named(names, positionsAt(points, play.timeS)), [names, points, play.timeS]);
 
-  const reached = reachedBy(trajectory.goal_times_s, play.timeS);
-  const strokesDone = reachedBy(trajectory.pose_times_s, play.timeS);
-  const last = goals.goals[reached - 1];
+  const passed = passedBy(trajectory.goal_times_s, play.timeS);
+  const strokesDone = passedBy(trajectory.pose_times_s, play.timeS);
+  const last = goals.goals[passed - 1];
   return (
     <>
       <Viewer
@@ -82,12 +82,12 @@ function Scene({ goals, trajectory, robot, urdf, world }: SceneProps) {
         pathIndex={indexAt(shown, play.timeS)}
         {...(targets === undefined ? {} : { goals: targets })}
         {...(wall === undefined ? {} : { wall, strokes, strokesDone, onPainted: setCells })}
-        summary={`Robot ${robot.name} at ${formatNumber(play.timeS, 3)} seconds, ${reached} of ${goals.goals.length} goals reached`}
+        summary={`Robot ${robot.name} at ${formatNumber(play.timeS, 3)} seconds, ${passed} of ${goals.goals.length} goals passed`}
       />
       <Player play={play} durationS={trajectory.duration_s} marks={trajectory.goal_times_s} />
       <p className="row between small" style={{ marginTop: 8 }}>
         <span>
-          {reached} of {goals.goals.length} goals reached
+          {passed} of {goals.goals.length} goals passed
           {wall !== undefined && ` · ${cells} of ${wall.columns * wall.rows} cells painted`}
         </span>
         {last !== undefined && (

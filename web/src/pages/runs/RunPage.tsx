@@ -5,7 +5,8 @@ import { useConvergence, useRun, useRunGoals } from "../../api/queries";
 import type { Feature, Run, RunGoals } from "../../api/types";
 import { Chart } from "../../charts/Chart";
 import { formatCount, formatDateTime, formatNumber, formatQuantity, humanize } from "../../lib/format";
-import { Card, Facts, PageHead } from "../../ui/basics";
+import { runVerdict } from "../../lib/verdicts";
+import { Card, Facts, PageHead, VerdictBadge } from "../../ui/basics";
 import { Loaded, Notice } from "../../ui/feedback";
 import { GoalsTable } from "./GoalsTable";
 import { Replay } from "./Replay";
@@ -19,7 +20,7 @@ export function RunPage() {
     <Loaded query={run}>
       {(data) => (
         <>
-          <PageHead title={`Run ${data.repetition + 1}`} back={{ to: `/jobs/${data.job}`, label: "Job" }}>
+          <PageHead title={`Run ${data.repetition + 1}`} back={{ to: `/jobs/${data.job}`, label: "Job" }} badge={<VerdictBadge verdict={runVerdict(data.verdict)} />}>
             <Exports run={data} />
           </PageHead>
           <div className="stack">
@@ -60,6 +61,7 @@ function RunFacts({ run, features }: { run: Run; features: readonly Feature[] })
   const unit = commonUnit(features);
   const painted = run.painted_percent == null ? [] : [{ name: "Painted", value: formatQuantity(run.painted_percent, "%") }];
   const along = run.replay?.along;
+  const estimate = run.estimate == null ? [] : [{ name: "True discrepancy (95 %)", value: <Estimate estimate={run.estimate} unit={unit} /> }];
   return (
     <div className="stack">
       <Facts
@@ -68,8 +70,9 @@ function RunFacts({ run, features }: { run: Run; features: readonly Feature[] })
           { name: "Evaluations", value: formatCount(run.evaluations) },
           { name: "Discrepancy", value: formatQuantity(run.discrepancy, unit) },
           ...(along == null ? [] : [{ name: "Along the motion", value: formatQuantity(along.discrepancy, unit) }]),
+          ...estimate,
           ...painted,
-          { name: "Goals", value: run.goals },
+          { name: "Goals reached", value: run.verdict == null ? `– of ${run.goals}` : `${run.verdict.reached} of ${run.goals}` },
         ]}
       />
       <Facts
@@ -94,6 +97,18 @@ function replayFacts({ replay }: Run, unit: string) {
   const shown = agrees ? `as claimed: ${formatQuantity(discrepancy, unit)}` : "differs from what the run claims";
   const swept = along?.painted_percent == null ? [] : [{ name: "Painted if never lifted", value: formatQuantity(along.painted_percent, "%") }];
   return [{ name: "Replayed", value: shown }, ...swept];
+}
+
+/** Estimate with its interval: the observed discrepancy contains noise, this one does not. */
+function Estimate({ estimate, unit }: { estimate: NonNullable<Run["estimate"]>; unit: string }) {
+  return (
+    <>
+      {formatQuantity(estimate.value, unit)}{" "}
+      <span className="muted small">
+        {formatNumber(estimate.lower)} to {formatNumber(estimate.upper)}
+      </span>
+    </>
+  );
 }
 
 function Exports({ run }: { run: Run }) {

@@ -1,8 +1,10 @@
 //! MODEL-IET: one Gaussian process of the feature map, shared by all goals, decides every trial.
 //!
 //! Identification moves first (nothing known), then, goal by goal, the pose whose predicted features come nearest
-//! while the model is still sure of them. A goal ends when a measured pose is within the tolerance, when the model
-//! expects no improvement even optimistically (out of reach), or after [`ModelSpec::max_tries`].
+//! while the model is still sure of them; of poses alike, the one with the least motion from its neighbours. A goal ends
+//! when a measured pose is within the tolerance, when the model expects no improvement even optimistically, or after
+//! [`ModelSpec::max_tries`]. The model may be wrong about what it has not seen: a goal is out of reach only once
+//! [`ModelSpec::restarts`] trials from another region of the joint space have left it as hopeless.
 //!
 //! Sources: R. Astudillo, P. Frazier, "Bayesian Optimization of Composite Functions", ICML 2019; M. Deisenroth,
 //! C. Rasmussen, PILCO, ICML 2011; K. Chatzilygeroudis et al., Black-DROPS, IROS 2017; A. Cully et al., "Robots that
@@ -11,7 +13,9 @@
 mod belief;
 mod columns;
 mod kernel;
+mod nearness;
 mod process;
+mod restart;
 mod shortlist;
 mod simulator;
 mod spec;
@@ -20,13 +24,14 @@ pub(super) mod tests;
 
 pub use spec::{ModelSpec, Prior};
 
-use super::planner::{FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
+use super::planner::{Believed, FeatureMap, GoalOutcome, NextTrial, RunSetup, Trial, WholeRun, WholeRunMethod};
 use super::space::Space;
 use super::steps::Targets;
 use crate::distance::distance;
 use crate::random::RandomStream;
 use crate::world::WorldError;
 use belief::{Aim, Belief};
+use nearness::Neighbours;
 use shortlist::{Starts, nearest_by_prior};
 use simulator::SimulatedWorld;
 
@@ -46,6 +51,8 @@ struct Open {
     best: f64,
     /// The improvement a trial must promise.
     need: f64,
+    /// Poses between which the goal's own lies.
+    neighbours: Neighbours,
 }
 
 /// A run of MODEL-IET.
@@ -96,6 +103,7 @@ impl ModelIet {
             }
             let prior = prior.as_deref_mut();
             let joints = nearest_by_prior(&self.space, &self.goals[0], prior, !self.log.is_empty(), &mut random);
+            let joints = self.space.equivalent(&joints, &self.space.home());
             return NextTrial::Execute { joints, goal: 0 };
         }
         let Some(mut belief) = Belief::fit(&self.space, logs, &self.goals, prior, self.spec.noise) else {
@@ -117,6 +125,10 @@ impl ModelIet {
                     break;
                 }
             }
+        }
+        if chosen.is_none() {
+            chosen =
+                self.restart(identification, &open, &starts, &mut belief).map(|(joints, goal)| (0.0, joints, goal));
         }
         if let Some((_, joints, goal)) = chosen {
             return NextTrial::Execute { joints, goal };
@@ -151,6 +163,17 @@ impl ModelIet {
         best
     }
 
+    /// Asks the belief that all trials lead to; `None` if nothing was observed.
+    fn with_belief<T>(&mut self, ask: impl FnOnce(&Self, &mut Belief) -> T) -> Option<T> {
+        let mut prior = self.prior.take();
+        let logs = [self.earlier.as_slice(), self.log.as_slice()];
+        let map = prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap);
+        let belief = Belief::fit(&self.space, logs, &self.goals, map, self.spec.noise);
+        let answer = belief.map(|mut belief| ask(self, &mut belief));
+        self.prior = prior;
+        answer
+    }
+
     /// Trials of a goal's own.
     fn tries(&self, identification: usize, goal: usize) -> u32 {
         self.log.iter().skip(identification).filter(|t| t.goal == goal).fold(0, |n, _| n + 1)
@@ -159,13 +182,19 @@ impl ModelIet {
     /// The goals still worth a trial: not reached, tries left.
     fn open_goals(&self, identification: usize, belief: &mut Belief) -> Vec<Open> {
         let seen = self.seen(belief);
+        let bests: Vec<_> = (0..self.goals.len()).map(|goal| self.best(goal, &seen)).collect();
+        let pose = |(goal, &(trial, miss)): (usize, &(Option<usize>, f64))| {
+            let is_known = miss <= self.tolerance || self.tries(identification, goal) > 0;
+            trial.filter(|_| is_known).map(|trial| self.log[trial].joints.as_slice())
+        };
+        let known: Vec<_> = bests.iter().enumerate().map(pose).collect();
         let mut open = Vec::with_capacity(self.goals.len());
-        for index in 0..self.goals.len() {
+        for (index, &(_, best)) in bests.iter().enumerate() {
             let tries = self.tries(identification, index);
-            let (_, best) = self.best(index, &seen);
             if best + self.spec.noise.min(0.1 * self.tolerance) > self.tolerance && tries < self.spec.max_tries {
                 let need = (0.25 * self.tolerance).max(0.02 * best);
-                open.push(Open { index, tries, best, need });
+                let neighbours = Neighbours::of(index, &known, &self.space);
+                open.push(Open { index, tries, best, need, neighbours });
             }
         }
         open
@@ -182,9 +211,12 @@ impl ModelIet {
     ) -> Option<(f64, Vec<f64>)> {
         let target = self.goals[goal.index].as_slice();
         let sure = Aim { goal: target, caution: if goal.tries < CAUTIOUS_TRIES { CAUTION } else { LATE_CAUTION } };
-        let poses = self.search(starts, sure, belief, random);
-        let nearest = poses.into_iter().map(|pose| (belief.score(&pose, sure), pose));
-        let (_, pose) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let poses = self.search(starts, sure, belief, random).into_iter();
+        let scored = poses.map(|pose| {
+            let pose = goal.neighbours.unwind(&self.space, &pose);
+            (belief.score(&pose, sure).sqrt(), pose)
+        });
+        let (_, pose) = goal.neighbours.choose(&self.space, scored.collect(), self.tolerance)?;
         let variance = belief.predict(&pose);
         let miss = distance(&belief.mean, target);
         if goal.best - miss < goal.need {
@@ -203,15 +235,15 @@ impl ModelIet {
     ) -> Option<Vec<f64>> {
         let target = self.goals[goal.index].as_slice();
         let hopeful = Aim { goal: target, caution: -0.25 };
-        let mut hope = (f64::INFINITY, None);
+        let mut candidates = Vec::new();
         for pose in self.search(starts, hopeful, belief, random) {
+            let pose = goal.neighbours.unwind(&self.space, &pose);
             let variance = belief.predict(&pose);
             let value = distance(&belief.mean, target) - 0.5 * (target.len() as f64 * variance).sqrt();
-            if value < hope.0 {
-                hope = (value, Some(pose));
-            }
+            candidates.push((value, pose));
         }
-        hope.1.filter(|_| hope.0 < goal.best - goal.need)
+        let (hope, pose) = goal.neighbours.choose(&self.space, candidates, self.tolerance)?;
+        (hope < goal.best - goal.need).then_some(pose)
     }
 
     /// Refined poses, some found around the measured ones nearest to the goal.
@@ -273,24 +305,35 @@ impl WholeRun for ModelIet {
     }
 
     fn outcomes(&mut self) -> Vec<GoalOutcome> {
-        let mut prior = self.prior.take();
-        let logs = [self.earlier.as_slice(), self.log.as_slice()];
-        let map = prior.as_deref_mut().map(|p| p as &mut dyn FeatureMap);
-        let outcomes = Belief::fit(&self.space, logs, &self.goals, map, self.spec.noise).map(|mut belief| {
-            let seen = self.seen(&mut belief);
-            (0..self.goals.len())
-                .map(|goal| {
-                    let (trial, miss) = self.best(goal, &seen);
-                    GoalOutcome { trial, distance: miss, reached: miss <= self.tolerance }
-                })
-                .collect()
+        let outcomes = self.with_belief(|model, belief| {
+            let seen = model.seen(belief);
+            let outcome = |goal| {
+                let (trial, distance) = model.best(goal, &seen);
+                GoalOutcome { trial, distance }
+            };
+            (0..model.goals.len()).map(outcome).collect()
         });
-        self.prior = prior;
-        let nothing = GoalOutcome { trial: None, distance: f64::INFINITY, reached: false };
-        outcomes.unwrap_or_else(|| vec![nothing; self.goals.len()])
+        outcomes.unwrap_or_else(|| vec![GoalOutcome { trial: None, distance: f64::INFINITY }; self.goals.len()])
+    }
+
+    fn believed(&mut self, poses: &[&[f64]]) -> Option<Vec<Believed>> {
+        if self.spec.noise == 0.0 {
+            return None;
+        }
+        self.with_belief(|_, belief| {
+            let at = |pose: &&[f64]| {
+                let variance = belief.predict(pose);
+                Believed { mean: belief.mean.clone(), variance }
+            };
+            poses.iter().map(at).collect()
+        })
     }
 
     fn is_used_up(&self, goal: usize) -> bool {
         self.tries(self.identification_count(), goal) >= self.spec.max_tries
+    }
+
+    fn has_restarted(&mut self, goal: usize) -> bool {
+        self.have_restarts_agreed(self.identification_count(), goal)
     }
 }

@@ -77,15 +77,31 @@ impl Starts {
                 best.offer(miss + weight * belief.variance_there(), &pose, space);
             }
         }
-        let refined = best.rows.into_iter().map(|(_, start)| {
-            let mut pose = start.clone();
-            let mut score = |q: &[f64], bound: f64, local: &mut Local| belief.score_with_slopes(q, aim, bound, local);
-            refine(space, &mut pose, REFINE_STEPS, &mut score);
-            space.retreat(&start, &mut pose);
-            pose
-        });
-        refined.collect()
+        refined(best, space, aim, belief)
     }
+
+    /// Refined poses begun at the uniform starts that are `apart` (rad, root mean square over the joints) from `from`.
+    pub fn elsewhere(&self, space: &Space, aim: Aim, from: &[f64], apart: f64, belief: &mut Belief) -> Vec<Vec<f64>> {
+        let mut best = Shortlist::new();
+        let rows = self.poses.chunks_exact(self.joints).zip(self.means.chunks_exact(self.features));
+        for (pose, mean) in rows.filter(|(pose, _)| space.apart(pose, from) >= apart) {
+            best.offer(squared_distance(mean, aim.goal), pose, space);
+        }
+        refined(best, space, aim, belief)
+    }
+}
+
+/// The poses to which the belief leads from those of `best`; joints that turn may be outside their limits.
+fn refined(best: Shortlist, space: &Space, aim: Aim, belief: &mut Belief) -> Vec<Vec<f64>> {
+    let unwound = space.unwound();
+    let refined = best.rows.into_iter().map(|(_, start)| {
+        let mut pose = start.clone();
+        let mut score = |q: &[f64], bound: f64, local: &mut Local| belief.score_with_slopes(q, aim, bound, local);
+        refine(&unwound, &mut pose, REFINE_STEPS, &mut score);
+        space.retreat(&start, &mut pose);
+        pose
+    });
+    refined.collect()
 }
 
 /// The [`REFINED`] allowed poses with the smallest scores, best first; ties keep the order in which they were offered.

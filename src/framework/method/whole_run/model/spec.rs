@@ -32,6 +32,10 @@ parameters! {
         /// Largest step of a joint from one trial to the next (of 180 degrees per stroke for prismatic joints); any step if
         /// absent.
         pub max_step_deg: Option<f64> = None, in 0.1..=1e4, unit "degrees";
+        /// How many trials from another region of the joint space must bring a goal no nearer before it is called out of
+        /// reach; 1 if absent, with 0 none is.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub restarts: Option<u32> = None, in 0..=100;
         /// Belief before the first trial.
         pub prior: Prior = Prior::None;
     }
@@ -46,5 +50,12 @@ impl Method for ModelSpec {
         let prior = known.simulator.map(|may_use| if may_use { Prior::Simulator } else { Prior::None });
         self.prior = prior.unwrap_or(self.prior);
         self.noise = known.noise.unwrap_or(self.noise);
+    }
+}
+
+impl ModelSpec {
+    /// Number of restarts that must agree before a goal is out of reach; 0 if none is to be.
+    pub(super) fn restarts(&self) -> usize {
+        self.restarts.map_or(1, |restarts| restarts as usize)
     }
 }

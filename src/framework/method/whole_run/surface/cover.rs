@@ -170,24 +170,20 @@ impl Ledger {
         self.straight < STRAIGHT && self.patience > 0
     }
 
-    /// For each goal, the accepted trial whose share is nearest, or the start. A goal is reached if that is as near as
-    /// whole cells can be, or if the share has passed the goal at less than half of the smallest rise between goals.
-    /// Nothing serves a goal as long as nothing was observed.
+    /// For each goal, the accepted trial whose share is nearest, or the start. Nothing serves a goal as long as nothing was
+    /// observed.
     pub fn outcomes(&self) -> Vec<GoalOutcome> {
         let shown = |&index: &usize| Some((Some(index), self.log[index].observation.as_ref()?[0] / self.cell));
         let steps: Vec<(Option<usize>, f64)> =
             std::iter::once((None, 0.0)).chain(self.accepted.iter().filter_map(shown)).collect();
         if self.log.iter().all(|trial| trial.observation.is_none()) {
-            return vec![GoalOutcome { trial: None, distance: f64::INFINITY, reached: false }; self.goals.len()];
+            return vec![GoalOutcome { trial: None, distance: f64::INFINITY }; self.goals.len()];
         }
-        let near = 0.5 * self.smallest_rise();
         let mut first = 0;
         let outcome = |goal: &f64| {
             let away = |step: usize| (steps[step].1 - goal).abs();
             first = (first..steps.len()).reduce(|best, step| if away(step) < away(best) { step } else { best })?;
-            let is_passed = self.level >= goal - 0.5 - SLACK;
-            let reached = away(first) <= 0.5 + SLACK || (is_passed && away(first) < near);
-            Some(GoalOutcome { trial: steps[first].0, distance: away(first) * self.cell, reached })
+            Some(GoalOutcome { trial: steps[first].0, distance: away(first) * self.cell })
         };
         self.goals.iter().filter_map(outcome).collect()
     }
@@ -234,23 +230,15 @@ mod tests {
         assert!(!tell(&mut ledger, 18.0), "nothing gained");
         assert!(tell(&mut ledger, 22.0));
         let outcomes = ledger.outcomes();
-        let served: Vec<_> = outcomes.iter().map(|outcome| (outcome.trial, outcome.reached)).collect();
-        assert_eq!(served, [(None, true), (Some(1), true), (Some(2), true), (Some(4), false)]);
-        assert_eq!(outcomes[3].distance, 8.0);
-    }
-
-    #[test]
-    fn half_of_one_big_goal_is_not_reached() {
-        let mut ledger = ledger(100, true, &[0.0, 100.0]);
-        tell(&mut ledger, 60.0);
-        assert!(!ledger.outcomes()[1].reached);
+        let served: Vec<_> = outcomes.iter().map(|outcome| (outcome.trial, outcome.distance)).collect();
+        assert_eq!(served, [(None, 0.0), (Some(1), 1.0), (Some(2), 2.0), (Some(4), 8.0)]);
     }
 
     #[test]
     fn nothing_observed_serves_nothing() {
         let mut ledger = ledger(4, true, &[0.0, 25.0]);
         ledger.tell(Trial { joints: vec![0.0], observation: None, cells: None, goal: 1 });
-        assert!(ledger.outcomes().iter().all(|outcome| !outcome.reached && outcome.distance.is_infinite()));
+        assert!(ledger.outcomes().iter().all(|outcome| outcome.trial.is_none() && outcome.distance.is_infinite()));
     }
 
     #[rstest]
@@ -278,7 +266,7 @@ mod tests {
         }
 
         #[test]
-        fn trials_serve_goals_in_order_and_none_is_called_reached_far_from_it(
+        fn trials_serve_goals_in_order_and_the_nearest_serves_each(
             goals in prop::collection::vec(0.0..100.0_f64, 1..12),
             gains in prop::collection::vec(0_u32..9, 1..40),
         ) {
@@ -292,8 +280,9 @@ mod tests {
             }
             let outcomes = ledger.outcomes();
             prop_assert!(outcomes.iter().map(|outcome| outcome.trial).is_sorted());
-            for outcome in outcomes.iter().filter(|outcome| outcome.reached) {
-                prop_assert!(outcome.distance <= (0.5 * ledger.smallest_rise()).max(0.5) + 1e-5);
+            for (goal, outcome) in goals.iter().zip(&outcomes) {
+                let shown = outcome.trial.map_or(0.0, |index| ledger.log[index].joints[0]);
+                prop_assert!((outcome.distance - (shown - goal).abs()).abs() < 1e-9);
             }
         }
     }
