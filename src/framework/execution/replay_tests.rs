@@ -53,14 +53,13 @@ fn a_replay_shows_what_the_run_claims(#[case] preset: &str, #[case] method: &str
 #[case("search")]
 fn every_cell_that_is_claimed_is_painted_by_the_path(#[case] method: &str) {
     let mut problem = problem("paint", method);
-    // Fewer goals than cells, as from demonstrations: some trials that paint serve none of them.
+    // Fewer goals than cells, as from demonstrations.
     let rows: Vec<Vec<f64>> = (0..14).map(|goal| vec![f64::from(goal) * 100.0 / 13.0]).collect();
     problem.goals = crate::generalization::Goals::new(problem.goals.features().to_vec(), &rows).unwrap();
     let result = run(&problem, 1).unwrap();
     let replay = replayed(&problem, &result);
     assert!(replay.agrees, "{:?}", replay.largest_difference);
     assert_eq!(replay.painted_percent, result.painted_percent);
-    assert!(result.path.iter().any(|pose| pose.goals.is_empty()), "every pose serves a goal");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Delivery of a finished run: its motion, planned, checked and replayed.
 
 use super::equivalent::nearest;
+use super::error::MotionError;
 use super::step::{JointStep, largest_step};
 use super::way;
 use crate::CellSet;
@@ -9,7 +10,7 @@ use crate::execution::{
     Moves, Problem, ProblemError, Replay, Replayed, RunResult, RunVerdict, SAMPLES_PER_MOVE, replay,
 };
 use crate::robot::{Chain, RobotModel};
-use crate::trajectory::{CheckedTrajectory, PlanSpec, TrajectoryError, Waypoint, plan};
+use crate::trajectory::{CheckedTrajectory, PlanSpec, Waypoint, plan};
 
 /// The motion of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,37 +29,6 @@ pub struct Motion {
     pub verdict: RunVerdict,
     /// The cells that the motion covers, painting at its poses; `None` unless the world is a surface.
     pub cells: Option<CellSet>,
-}
-
-/// A run has no trajectory.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MotionError {
-    /// The poses cannot be joined within the limits.
-    #[error(transparent)]
-    Trajectory(#[from] TrajectoryError),
-    /// No way without a contact was found from one pose to the next.
-    #[error(
-        "no way without a collision was found from {from} to pose {to}{}: on the straight one {:?} meets {:?}; move what \
-         is in the way, or run again with another seed",
-        serving(*.goal), .pair[0], .pair[1]
-    )]
-    NoRoute {
-        /// The pose it starts at, from 0, or home.
-        from: String,
-        /// The pose it leads to, from 0.
-        to: usize,
-        /// First goal which that pose serves; `None` if it serves none.
-        goal: Option<usize>,
-        /// Names of the two bodies that meet on the straight way.
-        pair: [String; 2],
-    },
-    /// The motion does not have the effect that the run claims.
-    #[error("the replay differs: {0}")]
-    Replay(String),
-}
-
-fn serving(goal: Option<usize>) -> String {
-    goal.map_or_else(String::new, |goal| format!(" (goal {goal})"))
 }
 
 /// Joins the path of `result` into a motion, checks it and replays it in the world of `problem`. If the problem's
@@ -87,7 +57,7 @@ pub fn deliver(problem: &Problem, result: &RunResult, planning: &PlanSpec) -> Re
     }
     let largest_step = largest_step(&chain, &result.path, &poses);
     let verdict = result.verdict().replayed(replay.agrees);
-    Ok(Motion { verdict, poses, trajectory, pose_times_s, largest_step, replay, cells })
+    Ok(Motion { poses, trajectory, pose_times_s, largest_step, replay, verdict, cells })
 }
 
 struct Planner<'a> {

@@ -8,6 +8,9 @@ use crate::robot::{Chain, Gene};
 use crate::trajectory::DEFAULT_VELOCITY;
 use std::f64::consts::TAU;
 
+/// Largest number of turns to add or take away.
+const MOST_TURNS: i32 = 32;
+
 /// `poses` (joints in gene order, rad or m) with each joint moved by whole turns within its range, so that the motion
 /// from `start` through all of them is least. Poses whose joints have less than a turn of freedom stay bit for bit.
 #[must_use]
@@ -62,9 +65,8 @@ fn first_least(row: &[(f64, usize)]) -> usize {
 /// Whole turns that keep `position` within the range of `gene`; no turn comes first.
 fn turns(gene: &Gene, position: f64) -> Vec<i32> {
     let [lower, upper] = gene.motion_range();
-    let most = ((upper - lower) / TAU).ceil().min(1e3) as i32;
     let inside = |turn: &i32| (lower..=upper).contains(&(position + f64::from(*turn) * TAU));
-    let others = (1..=most).flat_map(|turn| [-turn, turn]).filter(inside);
+    let others = (1..=MOST_TURNS).flat_map(|turn| [-turn, turn]).filter(inside);
     std::iter::once(0).chain(others).collect()
 }
 

@@ -10,9 +10,11 @@
 
 mod deliver;
 mod equivalent;
+mod error;
 mod step;
 mod way;
 
-pub use deliver::{Motion, MotionError, deliver};
+pub use deliver::{Motion, deliver};
 pub use equivalent::nearest;
+pub use error::MotionError;
 pub use step::JointStep;

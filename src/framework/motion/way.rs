@@ -1,6 +1,6 @@
 //! The way of a motion: from home through the poses of a path, around whatever the straight motion would touch.
 
-use super::deliver::MotionError;
+use super::error::MotionError;
 use crate::collision::{CollisionModel, RouteBudget, route};
 use crate::execution::PathPose;
 use crate::trajectory::{CheckedTrajectory, Polynomial, Waypoint};

@@ -32,8 +32,9 @@ pub struct Gene {
     /// Acceleration limit, rad/s^2 or m/s^2; `None` if the robot's description has none.
     #[cfg_attr(feature = "schema", schema(required = true))]
     pub acceleration: Option<f64>,
-    /// Jerk limit, rad/s^3 or m/s^3; absent if the robot's description has none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Jerk limit, rad/s^3 or m/s^3; `None` if the robot's description has none.
+    #[serde(default)]
+    #[cfg_attr(feature = "schema", schema(required = true))]
     pub jerk: Option<f64>,
 }
 

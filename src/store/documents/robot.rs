@@ -19,4 +19,4 @@ document! {
         created_at: Timestamp,
     }
 }
-versions! { Robot keeps RobotView, "robot", [unchanged] }
+versions! { Robot keeps RobotView, "robot", [unchanged, unchanged] }
