@@ -5,8 +5,9 @@
     examples/replay.py URDF WORLD.toml RUNS.json DIR
 
 Nothing of cgda is used: the URDF is read here, and the tool's position is computed here. A cell is painted if the tool is
-closer to its centre than the radius where the arm rests at a waypoint. Between the waypoints, the tool must stay in front
-of the surface.
+closer to its centre than the radius where the arm rests at a waypoint. At every point, the tool of the robot as described
+must stay in front of the surface. A simulated real robot (--distort) has other links and another base: it paints with
+those, and it may be nearer to the surface by as much as it deviates, which is printed.
 """
 import json
 import sys
@@ -86,9 +87,11 @@ def main(urdf, world, runs, directory):
     path, surface, runs = chain(urdf), tomllib.loads(Path(world).read_text()), json.loads(Path(runs).read_text())
     origin, column, row = surface["origin_m"], surface["column_step_m"], surface["row_step_m"]
     normal = cross(column, row)
+    normal = [part / dot(normal, normal) ** 0.5 for part in normal]
     rows, columns = range(surface["rows"]), range(surface["columns"])
     centres = [[o + c * x + r * y for o, x, y in zip(origin, column, row)] for r in rows for c in columns]
     wrong = waypoints = points = behind = 0
+    deepest = 0.0
     for run in runs["runs"]:
         if run["trajectory_problem"]:
             print(f"seed {run['seed']}: no trajectory: {run['trajectory_problem']}")
@@ -96,12 +99,15 @@ def main(urdf, world, runs, directory):
         name = f"{runs['preset']}-{runs['method']}-{run['seed']}.json"
         trajectory = json.loads((Path(directory) / name).read_text())
         painted, side, free = set(), None, [j for j in trajectory["joints"] if j not in trajectory["fixed_joints"]]
-        robot = run.get("simulated_robot") or {"base_shift_m": [0, 0, 0], "link_scales": [1.0] * len(free)}
+        described = {"base_shift_m": [0, 0, 0], "link_scales": [1.0] * len(free)}
+        real = run.get("simulated_robot") or described
         for point in trajectory["points"]:
-            at = tool(path, dict(zip(trajectory["joints"], point["positions"])), free, robot)
-            height = dot(normal, [a - o for a, o in zip(at, origin)])
+            positions = dict(zip(trajectory["joints"], point["positions"]))
+            planned, at = (tool(path, positions, free, robot) for robot in (described, real))
+            height, reached = (dot(normal, [a - o for a, o in zip(there, origin)]) for there in (planned, at))
             side = side or height
             points, behind = points + 1, behind + (height * side < 0)
+            deepest = max(deepest, -reached if side > 0 else reached)
             if point["waypoint"] is not None:
                 waypoints += 1
                 near = [sum((a - b) ** 2 for a, b in zip(at, centre)) < surface["radius_m"] ** 2 for centre in centres]
@@ -110,7 +116,7 @@ def main(urdf, world, runs, directory):
             wrong += 1
             print(f"seed {run['seed']}: paints {sorted(painted)}, but claims {run['painted_cells']}")
     print(f"{len(runs['runs'])} runs, {waypoints} waypoints, {points} points: {wrong} paint other cells than claimed, "
-          f"{behind} points behind the surface")
+          f"{behind} points behind the surface, {1000 * deepest:.0f} mm at most for the simulated real robot")
     return 1 if wrong or behind else 0
 
 
