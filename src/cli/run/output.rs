@@ -4,7 +4,7 @@ use super::Delivered;
 use super::figures::Figures;
 use super::seeded::Seeded;
 use crate::framework::execution::{Chosen, DiscrepancyEstimate, Replay, RunOutcome, RunVerdict, Verdict};
-use crate::framework::motion::Motion;
+use crate::framework::motion::{JointStep, Motion};
 use crate::framework::preset::Preset;
 use crate::framework::trajectory::export::{ExportSpec, Exported};
 use crate::framework::world::SimulatedRobot;
@@ -43,6 +43,8 @@ struct Run<'a> {
     /// Cells that the trajectory paints, row * columns + column.
     #[serde(skip_serializing_if = "Option::is_none")]
     painted_cells: Option<Vec<usize>>,
+    /// Largest move of one joint between successive poses, the first from home, rad or m.
+    largest_step: Option<&'a JointStep>,
     replay: &'a Replay,
     /// The robot that stood for the real one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -84,6 +86,7 @@ pub(super) fn json(seeded: &Seeded, seed: u64, runs: &[Delivered], figures: Figu
                 verdict: motion.verdict,
                 painted_percent: motion.replay.painted_percent,
                 painted_cells: motion.cells.as_ref().map(|cells| cells.iter().collect()),
+                largest_step: motion.largest_step.as_ref(),
                 replay: &motion.replay,
                 simulated_robot: simulated_robot.as_ref(),
                 trajectory_problem: motion.trajectory.as_ref().err().map(ToString::to_string),
