@@ -11,7 +11,6 @@ those, and it may be nearer to the surface by as much as it deviates, which is p
 """
 import json
 import sys
-import tomllib
 import xml.etree.ElementTree as xml
 from math import cos, sin
 from pathlib import Path
@@ -35,6 +34,12 @@ def turned(axis, angle):
 
 def numbers(text):
     return [float(word) for word in text.split()]
+
+
+def world_of(text):
+    """The lines KEY = VALUE of a world's TOML file."""
+    pairs = (line.split("=", 1) for line in text.splitlines() if "=" in line and not line.startswith("#"))
+    return {key.strip(): json.loads(value) for key, value in pairs}
 
 
 def chain(urdf):
@@ -84,7 +89,7 @@ def dot(a, b):
 
 
 def main(urdf, world, runs, directory):
-    path, surface, runs = chain(urdf), tomllib.loads(Path(world).read_text()), json.loads(Path(runs).read_text())
+    path, surface, runs = chain(urdf), world_of(Path(world).read_text()), json.loads(Path(runs).read_text())
     origin, column, row = surface["origin_m"], surface["column_step_m"], surface["row_step_m"]
     normal = cross(column, row)
     normal = [part / dot(normal, normal) ** 0.5 for part in normal]

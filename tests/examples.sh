@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs the shipped client scripts against a real server and compares the digests: the same job and seed over REST and
-# over gRPC must give the same bits. Usage: tests/examples.sh CGDA_BINARY PYTHON
+# over gRPC must give the same bits. Then exported trajectories are replayed by kinematics of their own, and must paint
+# what their runs claim. Usage: tests/examples.sh CGDA_BINARY PYTHON
 set -euo pipefail
 cd "$(dirname "$0")/.."
 cgda=$1 python=$2
@@ -21,3 +22,10 @@ if [ -z "$rest" ] || [ "$rest" != "$grpc" ]; then
   exit 1
 fi
 echo "examples over REST and gRPC: digest $rest"
+arm=examples/robots/teo_right_arm.urdf wall=examples/worlds/paint_wall.toml
+for method in particle sst; do
+  "$cgda" run examples/demonstrations/paint/*.csv --robot $arm --world $wall --t-min 1 --free shoulder_pitch \
+    --free shoulder_roll --free elbow_pitch --fixed wrist_yaw=-0.7853981633974483 --method $method --repetitions 3 \
+    --out "$work/motions" --json 2>"$work/run.err" >"$work/runs.json" || { cat "$work/run.err" >&2; exit 1; }
+  echo "replay of $method: $("$python" examples/replay.py $arm $wall "$work/runs.json" "$work/motions")"
+done
