@@ -72,6 +72,7 @@ function executionFacts(request: Extract<CreateJob, { kind: "execution" }>): Fac
     ["Max. evaluations per goal", execution.max_evaluations_per_goal],
     ["Max. evaluations per second", request.max_evaluations_per_s],
     ["Motion", request.planning == null ? null : motion(request.planning)],
+    ["Collisions", request.avoid_collisions == null ? null : request.avoid_collisions ? "avoided" : "not checked"],
     ["First seed", seed == null ? null : String(seed)],
     ["Repetitions", repetitions],
     ["Starts with", earlier == null ? null : <EarlierTrials key="earlier" runs={earlier} />],

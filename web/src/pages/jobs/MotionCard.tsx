@@ -1,4 +1,4 @@
-// The motion of a new job's trajectories: how fast, and whether the arm stops at the goals.
+// The motion of a new job: how fast, whether the arm stops at the goals, and whether collisions are avoided.
 
 import { Card } from "../../ui/basics";
 import { NumberField, SelectField } from "../../ui/fields";
@@ -12,6 +12,11 @@ const AT_GOALS = [
 const TIMINGS = [
   { value: "limits", label: "as fast as these limits allow" },
   { value: "demonstration", label: "as in the demonstrations, or slower" },
+];
+
+const COLLISIONS = [
+  { value: "avoid", label: "avoided, with the arm itself and the surface" },
+  { value: "ignore", label: "not checked" },
 ];
 
 export function MotionCard({ form, change }: { form: JobForm; change: (part: Partial<JobForm>) => void }) {
@@ -32,6 +37,7 @@ export function MotionCard({ form, change }: { form: JobForm; change: (part: Par
         <SelectField label="At goals" options={AT_GOALS} {...text("goals")} />
         {form.goals === "stop" && <NumberField label="Pause at goals (s)" min={0} max={60} step="any" required {...text("pause")} />}
         <SelectField label="Timing" options={TIMINGS} {...text("timing")} />
+        <SelectField label="Collisions" options={COLLISIONS} {...text("collisions")} />
       </div>
     </Card>
   );

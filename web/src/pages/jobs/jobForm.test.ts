@@ -86,6 +86,12 @@ describe("requestOf", () => {
     expect(passing).toHaveProperty("planning", { speed: 0.8, acceleration: 0.5, blend: true, timing: "demonstration" });
   });
 
+  it("avoids collisions unless it is told not to", () => {
+    const chosen = { ...EMPTY_FORM, action: "a", robot: "r", world: "w" };
+    expect(requestOf(chosen, sst)).toHaveProperty("avoid_collisions", true);
+    expect(requestOf({ ...chosen, collisions: "ignore" }, sst)).toHaveProperty("avoid_collisions", false);
+  });
+
   it("suggests the method of fewest evaluations that works in the world", () => {
     expect(suggested(wall).method).toBe("particle");
   });

@@ -30,6 +30,7 @@ export interface JobForm {
   goals: "stop" | "pass";
   pause: string;
   timing: PlanTiming;
+  collisions: "avoid" | "ignore";
 }
 
 /** The fields that hold a text each. */
@@ -61,6 +62,7 @@ export const EMPTY_FORM: JobForm = {
   goals: "stop",
   pause: "0.1",
   timing: "limits",
+  collisions: "avoid",
 };
 
 /** Defaults for a world: the method that needs the fewest evaluations there. For SST on a wall the discrepancy changes in
@@ -92,6 +94,7 @@ export function requestOf(form: JobForm, method: Method | undefined): CreateJob 
     repetitions: Number(form.repetitions),
     max_evaluations_per_s: optional(form.pace),
     planning: planningOf(form),
+    avoid_collisions: form.collisions === "avoid",
     ...(method.learns_from_earlier_runs && form.earlier === "none" ? { earlier_runs: [] } : {}),
   };
 }
