@@ -2,12 +2,15 @@
 //!
 //! Of all sequences of equivalent poses, the one with the least motion is found per joint by a dynamic programme over
 //! the turns: joints turn independently of one another, and the cost of a move is the time that the joint takes at its
-//! velocity limit, so that the sum over the joints and the moves is least.
+//! velocity limit, so that the sum over the joints and the moves is least. The move from the start counts half: if a joint
+//! has to unwind, it does so on its way to the first pose, not between two goals.
 
 use crate::robot::{Chain, Gene};
 use crate::trajectory::DEFAULT_VELOCITY;
 use std::f64::consts::TAU;
 
+/// Weight of the move from the start.
+const APPROACH: f64 = 0.5;
 /// Largest number of turns to add or take away.
 const MOST_TURNS: i32 = 32;
 
@@ -39,7 +42,10 @@ fn least_motion(gene: &Gene, start: f64, positions: &[f64]) -> Vec<i32> {
     for (goal, turns) in choices.iter().enumerate() {
         let reach = |&turn: &i32| {
             let here = at(goal, turn);
-            let from = |(index, (cost, before)): (usize, (f64, f64))| (cost + (here - before).abs() / velocity, index);
+            let weight = if goal == 0 { APPROACH } else { 1.0 };
+            let from = |(index, (cost, before)): (usize, (f64, f64))| {
+                (cost + weight * (here - before).abs() / velocity, index)
+            };
             let before: Vec<(f64, f64)> = match goal.checked_sub(1) {
                 None => vec![(0.0, start)],
                 Some(last) => table[last].iter().zip(&choices[last]).map(|(c, t)| (c.0, at(last, *t))).collect(),
@@ -95,6 +101,12 @@ mod tests {
     }
 
     #[test]
+    fn a_joint_that_has_to_unwind_does_so_before_the_first_goal() {
+        let joint = gene(JointKind::Revolute, -TAU, TAU);
+        assert_eq!(least_motion(&joint, 6.1, &[6.2, 0.1, 0.2]), [-1, 0, 0]);
+    }
+
+    #[test]
     fn limits_hold_and_joints_of_less_than_a_turn_stay() {
         let joint = gene(JointKind::Revolute, -3.1, 3.1);
         assert_eq!(least_motion(&joint, 3.0, &[-3.0, 3.0]), [0, 0]);
@@ -102,12 +114,12 @@ mod tests {
         assert_eq!(least_motion(&endless, 3.0, &[-3.0, 3.0, -3.0]), [1, 0, 1]);
     }
 
-    /// Total motion over all choices, by trying them all.
-    fn by_force(joint: &Gene, start: f64, positions: &[f64]) -> f64 {
+    /// Least weighted motion over all choices, by trying them all.
+    fn by_force(joint: &Gene, start: f64, positions: &[f64], weight: f64) -> f64 {
         let Some((first, rest)) = positions.split_first() else { return 0.0 };
         let cost = |turn: i32| {
             let here = first + f64::from(turn) * TAU;
-            (here - start).abs() + by_force(joint, here, rest)
+            weight * (here - start).abs() + by_force(joint, here, rest, 1.0)
         };
         turns(joint, *first).into_iter().map(cost).fold(f64::INFINITY, f64::min)
     }
@@ -120,8 +132,9 @@ mod tests {
             let joint = gene(JointKind::Revolute, -TAU, TAU);
             let chosen = least_motion(&joint, start, &positions);
             let path: Vec<f64> = positions.iter().zip(chosen).map(|(q, turn)| q + f64::from(turn) * TAU).collect();
-            let total: f64 = std::iter::once(&start).chain(&path).zip(&path).map(|(a, b)| (a - b).abs()).sum();
-            prop_assert!(total <= by_force(&joint, start, &positions) + 1e-9);
+            let between: f64 = path.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+            let total = APPROACH * (path[0] - start).abs() + between;
+            prop_assert!(total <= by_force(&joint, start, &positions, APPROACH) + 1e-9);
             prop_assert!(path.iter().all(|q| q.abs() <= TAU));
         }
     }
