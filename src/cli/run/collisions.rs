@@ -15,7 +15,7 @@ pub(super) struct CollisionArguments {
     /// Avoid collisions with a preset that does not check them, too.
     #[arg(long, requires = "preset")]
     avoid_collisions: bool,
-    /// TOML file of obstacles to avoid: tables [[obstacles]] with name and shape, in the chain's base frame.
+    /// TOML file of obstacles to avoid: an array of tables named obstacles, each with name and shape, in the chain's base frame.
     #[arg(long, value_name = "FILE")]
     obstacles: Option<PathBuf>,
 }

@@ -59,7 +59,7 @@ pub(super) fn check_samples(limits: &[JointLimits], points: &[Point]) -> Result<
 /// Checks a stored motion of `chain` that was planned with `spec`, of which only the samples are known.
 ///
 /// # Errors
-/// As [`check_samples`].
+/// [`TrajectoryError`] with joint, time and value.
 pub fn check_stored(chain: &Chain, spec: &PlanSpec, points: &[Point]) -> Result<(), TrajectoryError> {
     check_samples(&limits_under(chain, spec).0, points)
 }
