@@ -4,7 +4,7 @@
     cgda run FILES.. --robot URDF --world WORLD.toml --out DIR --json > RUNS.json
     examples/replay.py URDF WORLD.toml RUNS.json DIR
 
-Nothing of cgda is used: the URDF is read here, and the tool's position is computed here. A cell is painted if the tool is
+Export without --prefix, --rename and --omit-held. Nothing of cgda is used: the URDF is read here, and the tool's position is computed here. A cell is painted if the tool is
 closer to its centre than the radius where the arm rests at a waypoint. At every point, the tool of the robot as described
 must stay in front of the surface. A simulated real robot (--distort) has other links and another base: it paints with
 those, and it may be nearer to the surface by as much as it deviates, which is printed.
@@ -104,6 +104,9 @@ def main(urdf, world, runs, directory):
         name = f"{runs['preset']}-{runs['method']}-{run['seed']}.json"
         trajectory = json.loads((Path(directory) / name).read_text())
         painted, side, free = set(), None, [j for j in trajectory["joints"] if j not in trajectory["fixed_joints"]]
+        missing = [j.get("name") for j in path if j.get("type") != "fixed" and j.get("name") not in trajectory["joints"]]
+        if missing:
+            sys.exit(f"{name} does not name {', '.join(missing)}: export without --prefix, --rename and --omit-held")
         described = {"base_shift_m": [0, 0, 0], "link_scales": [1.0] * len(free)}
         real = run.get("simulated_robot") or described
         for point in trajectory["points"]:

@@ -110,13 +110,15 @@ pub fn run(arguments: &RunArguments) -> anyhow::Result<()> {
     }
     let planning = arguments.planning.spec();
     planning.check(iet.chain())?;
+    let names = arguments.planning.names();
+    names.check(iet.chain())?;
     if !seeded.named.problem.execution.checks_collisions() {
         eprintln!("collisions are not checked: the arm may pass through itself and through what it works on");
     }
     let seeds: Vec<u64> = (0..=last).map(|offset| arguments.seed + offset).collect();
     let runs = search(&seeded, &seeds, &planning, arguments.threads)?;
     if let Some(directory) = &arguments.out {
-        output::write_trajectories(directory, &seeded.named, &runs, &arguments.planning.names())?;
+        output::write_trajectories(directory, &seeded.named, &runs, &names)?;
     }
     let figures = Figures::of(&runs, arguments.threshold.or(seeded.named.threshold)).context("there were no runs")?;
     let text = if arguments.json {

@@ -57,6 +57,8 @@ impl Setup {
         check_goals(&problem.goals)?;
         let model = RobotModel::from_urdf(&problem.urdf)?;
         let chain = Chain::new(&model, &problem.robot)?;
+        // Before the constraints, which may make a solid of its surface.
+        world::build(&problem.world, &chain)?;
         let constraints = Constraints::new(&spec.constraints, &model, &problem.robot, &chain, &problem.world)?;
         let needs = |expected| Err(ProblemError::Method { method: name, expected });
         match method {
@@ -68,7 +70,6 @@ impl Setup {
             }
             _ => {}
         }
-        world::build(&problem.world, &chain)?;
         let shown = world::features(&problem.world)?;
         let mut select = Vec::with_capacity(problem.goals.features().len());
         for feature in problem.goals.features() {

@@ -129,7 +129,8 @@ impl WholeRunDriver {
         let outcomes = self.method.outcomes();
         let ended: Vec<StopReason> = (0..outcomes.len()).map(|goal| self.method.ended_by(goal)).collect();
         let log = self.method.log();
-        if log.is_empty() && !setup.constraints.is_empty() {
+        let is_unserved = outcomes.iter().any(|outcome| outcome.trial.is_none() && outcome.distance.is_infinite());
+        if log.is_empty() && is_unserved && !setup.constraints.is_empty() {
             let home = Proposal { joints: setup.chain.home(), origins: [None; 2], previous: None };
             let nearest = setup.constraints.violations(&home).collect();
             return Err(ProblemError::Infeasible { goal: 0, nearest, evaluations: 0 });

@@ -6,6 +6,7 @@
 use super::checked::CheckedTrajectory;
 use super::point::Point;
 use super::tightest::Tightest;
+use crate::robot::Chain;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -19,6 +20,19 @@ pub struct ExportSpec {
     pub rename: BTreeMap<String, String>,
     /// Whether the held joints are left out.
     pub omit_held: bool,
+}
+
+impl ExportSpec {
+    /// Checks that the joints of `chain` can have these names.
+    ///
+    /// # Errors
+    /// [`ExportError`] as for [`Exported::new`].
+    pub fn check(&self, chain: &Chain) -> Result<(), ExportError> {
+        let joints: Vec<String> = chain.genes().iter().map(|gene| gene.name.clone()).collect();
+        let fixed_joints = chain.fixed_joints().iter().cloned().collect();
+        let empty = Sampled { joints: &joints, fixed_joints: &fixed_joints, points: &[], tightest: &[], notes: &[] };
+        Exported::new(empty, self).map(drop)
+    }
 }
 
 /// Names that make no export.
@@ -226,7 +240,7 @@ fn stamp(time_s: f64) -> (u64, u64) {
 mod tests {
     use super::*;
     use crate::preset::shipped;
-    use crate::robot::{Chain, RobotModel};
+    use crate::robot::RobotModel;
     use crate::trajectory::{PlanSpec, Waypoint, plan};
 
     fn waxing() -> CheckedTrajectory {

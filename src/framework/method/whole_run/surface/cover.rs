@@ -171,12 +171,13 @@ impl Ledger {
     }
 
     /// For each goal, the accepted trial whose share is nearest, or the start. Nothing serves a goal as long as nothing was
-    /// observed.
+    /// observed, unless all of them hold before any trial.
     pub fn outcomes(&self) -> Vec<GoalOutcome> {
         let shown = |&index: &usize| Some((Some(index), self.log[index].observation.as_ref()?[0] / self.cell));
         let steps: Vec<(Option<usize>, f64)> =
             std::iter::once((None, 0.0)).chain(self.accepted.iter().filter_map(shown)).collect();
-        if self.log.iter().all(|trial| trial.observation.is_none()) {
+        let is_unseen = self.log.iter().all(|trial| trial.observation.is_none());
+        if is_unseen && !(self.log.is_empty() && self.goal().is_none()) {
             return vec![GoalOutcome { trial: None, distance: f64::INFINITY }; self.goals.len()];
         }
         let mut first = 0;
@@ -239,6 +240,13 @@ mod tests {
         let mut ledger = ledger(4, true, &[0.0, 25.0]);
         ledger.tell(Trial { joints: vec![0.0], observation: None, cells: None, goal: 1 });
         assert!(ledger.outcomes().iter().all(|outcome| outcome.trial.is_none() && outcome.distance.is_infinite()));
+    }
+
+    #[test]
+    fn goals_that_hold_before_any_trial_are_served_by_the_start() {
+        let ledger = ledger(4, true, &[0.0, 0.0]);
+        assert!(ledger.is_over());
+        assert!(ledger.outcomes().iter().all(|outcome| outcome.trial.is_none() && outcome.distance == 0.0));
     }
 
     #[rstest]
